@@ -45,13 +45,20 @@ namespace plumbline::app
   {
     std::vector<double> numbers;
     for (const std::string &text : given)
-      for (const std::string &word : words_of(text))
-        if (const auto number = to_number(word))
+    {
+      const std::vector<std::string> words = words_of(text);
+      for (const std::string &word : words)
+        if (&word != &words.front() && word.size() > 1 && word[0] == '0' && word[1] != '.')
+          throw InputError(option + ": '" + text +
+                           "' looks like a number with a decimal comma; write 3.015 for it, and "
+                           "separate numbers by blanks or ', '");
+        else if (const auto number = to_number(word))
           numbers.push_back(*number);
         else
           throw InputError(option + ": '" + word +
                            "' is no number; give numbers separated by commas, semicolons or "
                            "blanks");
+    }
     if (numbers.empty())
       throw InputError(option + " has no numbers; give one or more, or leave it out");
     return numbers;

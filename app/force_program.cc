@@ -13,10 +13,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cctype>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <thread>
 #include <unordered_map>
 
 namespace plumbline::app
@@ -67,6 +70,28 @@ namespace plumbline::app
       return result;
     }
 
+    /// The leader of a process group, which an interrupt ends.
+    /// @return  its status as of waitpid
+    int wait_for(pid_t process)
+    {
+      using std::chrono::milliseconds;
+      constexpr milliseconds longest(20);
+      milliseconds pause(1);
+      bool is_told = false;
+      int status = 0;
+      while (waitpid(process, &status, WNOHANG) == 0)
+      {
+        if (is_interrupted() && !is_told)
+        {
+          kill(-process, SIGTERM);
+          is_told = true;
+        }
+        std::this_thread::sleep_for(pause);
+        pause = std::min(longest, 2 * pause);
+      }
+      return status;
+    }
+
     /// @return  its status as of waitpid
     int run_by_shell(const std::string &command, const std::string &log)
     {
@@ -79,17 +104,33 @@ namespace plumbline::app
       posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
                                        O_WRONLY | O_CREAT | O_TRUNC, 0600);
       posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+      posix_spawnattr_t attributes;
+      posix_spawnattr_init(&attributes);
+      posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); // a group of its own
       pid_t process = 0;
-      const int error =
-          posix_spawn(&process, "/bin/sh", &actions, nullptr, arguments.data(), environment.data());
+      const int error = posix_spawn(&process, "/bin/sh", &actions, &attributes, arguments.data(),
+                                    environment.data());
+      posix_spawnattr_destroy(&attributes);
       posix_spawn_file_actions_destroy(&actions);
       if (error != 0)
         throw InputError("the shell cannot be started: " + std::string(std::strerror(error)) +
                          "; end other programs");
-      int status = 0;
-      while (waitpid(process, &status, 0) < 0 && errno == EINTR)
-        ;
+      const int status = wait_for(process);
+      kill(-process, SIGTERM); // what it left in the background
       return status;
+    }
+
+    /// A name as one word of the shell.
+    std::string shell_word(const std::string &text)
+    {
+      std::string word;
+      for (const char c : text)
+      {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::strchr("/._-+", c) == nullptr)
+          word += '\\';
+        word += c;
+      }
+      return word;
     }
   } // namespace
 
@@ -98,8 +139,9 @@ namespace plumbline::app
                                   ForceKind kind)
       : nodes_(nodes), kind_(kind), folder_("probe"), nodes_file_(folder_.path() / "nodes.csv"),
         forces_file_(folder_.path() / "forces.csv"), log_file_(folder_.path() / "log"),
-        command_(replace(replace(command, "{nodes}", nodes_file_.string(), "the displaced nodes"),
-                         "{forces}", forces_file_.string(), "the forces that it writes"))
+        command_(replace(
+            replace(command, "{nodes}", shell_word(nodes_file_.string()), "the displaced nodes"),
+            "{forces}", shell_word(forces_file_.string()), "the forces that it writes"))
   {
   }
 

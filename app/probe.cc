@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -23,7 +24,7 @@ namespace plumbline::app
   namespace
   {
     /// Forces with a larger part across the bonds are not those of bonds.
-    constexpr double most_noncentral = 1e-3;
+    constexpr double most_noncentral = 1e-3, most_nonlinear = 1e-3;
     /// Larger defects are worth a warning.
     constexpr double noticeable = 1e-5;
 
@@ -145,6 +146,8 @@ namespace plumbline::app
     int probe_in(const ProbeOptions &options, ForceKind kind)
     {
       constexpr double usual_step = 1e-5;
+      if (std::filesystem::is_directory(options.output))
+        throw InputError("-o " + options.output + " is a folder; give the name of a file");
       const ProgramNodes<dim> nodes = read_nodes<dim>(options.nodes_file);
       const auto plan = meshfree::plan_probe(
           nodes.places, {options.horizon, options.step.value_or(usual_step * options.horizon),
@@ -173,6 +176,13 @@ namespace plumbline::app
             ". The program is not bond-based, evaluates kernels at points other than the nodes, or "
             "its bonds are under load; probe a bond-based material in the undeformed state, or "
             "export the weights from the program");
+      if (found.nonlinearity > most_nonlinear)
+        throw InputError(
+            "forces are not linear in the displacements: halving the step changes them "
+            "by " +
+            base::to_percent(found.nonlinearity) +
+            " of the largest force constant, so that these are not known; give a "
+            "smaller --step");
       base::write_file(options.output, bonds_csv(found, nodes));
       if (!options.quiet)
         std::cout << text(options, plan, found, nodes);

@@ -36,9 +36,12 @@ namespace plumbline::app
     std::string off(const Findings &found)
     {
       const Worst &first = found.moments.defects[0].worst, &second = found.moments.second;
-      return "second moments are off by " + base::to_percent(second.value) + " at node " +
-             found.id(second.node) + ", first moments by " + base::to_percent(first.value) +
-             " at node " + found.id(first.node);
+      const std::string of_second = "second moments are off by " + base::to_percent(second.value) +
+                                    " at node " + found.id(second.node);
+      if (first.value <= MomentCheck::tolerance)
+        return of_second;
+      return of_second + ", first moments by " + base::to_percent(first.value) + " at node " +
+             found.id(first.node);
     }
 
     double worst_of_both(const Findings &found)
@@ -339,9 +342,12 @@ namespace plumbline::app
     if (is_second_exact)
       result.push_back(
           std::string("second moments exact") +
-          (is_first_exact ? ": asymptotically compatible as far as moments tell" : ""));
+          (is_first_exact ? ": asymptotically compatible (AC) as far as moments tell" : ""));
     else
-      result.push_back("second moments off by " + base::to_percent(moments.mean_ratio - 1) +
+      result.push_back((moments.typical() > found.precision.moments
+                            ? "not asymptotically compatible (not AC): "
+                            : std::string()) +
+                       "second moments off by " + base::to_percent(moments.mean_ratio - 1) +
                        " on average (worst " + base::to_percent(moments.second.value) +
                        " at node " + found.id(moments.second.node) + "): " + consequence(found));
     if (found.n_on_boundary > 0)

@@ -175,6 +175,11 @@ namespace plumbline::analysis
     }
   } // namespace
 
+  std::uint64_t n_equal_steps(double time, double step)
+  {
+    return static_cast<std::uint64_t>(std::ceil(time / step * (1 - step_tolerance)));
+  }
+
   Counts integrate(const Motion &motion, const Scheme &scheme, const Stepping &stepping, double end,
                    State &state, const Observer &observer)
   {
@@ -188,8 +193,7 @@ namespace plumbline::analysis
       runge_kutta(motion, stepping, end, state, observer, counts);
       return counts;
     }
-    const auto n_steps =
-        static_cast<std::uint64_t>(std::ceil((end - start) / stepping.step * (1 - step_tolerance)));
+    const std::uint64_t n_steps = n_equal_steps(end - start, stepping.step);
     const double step = (end - start) / static_cast<double>(n_steps);
     Flow flow(motion, counts);
     for (std::uint64_t k = 1; k <= n_steps; ++k)

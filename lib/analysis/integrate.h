@@ -18,6 +18,10 @@ namespace plumbline::analysis
     double tolerance = 1e-12;
   };
 
+  /// The steps that schemes of equal steps take: as many as it takes, a little shorter than asked
+  /// for so that they end on time. 0 where there is no time to pass.
+  std::uint64_t n_equal_steps(double time, double step);
+
   struct Counts
   {
     std::uint64_t n_steps = 0, n_accelerations = 0, n_tangents = 0, n_newton = 0;

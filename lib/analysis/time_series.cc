@@ -73,13 +73,15 @@ namespace plumbline::analysis
         size = std::max(size, norm(finer.back()));
       }
       series.values_ = std::move(finer);
-      if (difference <= tolerance * size && n + 1 >= least) // else it is of no use to look closer
+      // the former half of the points is known to be too few, or the controls decide
+      const bool is_new = difference > tolerance * size && n == last;
+      if ((difference <= tolerance * size || is_new) && n + 1 >= least)
       {
         for (const double s : base::control_points(controls.empty() ? n_controls : 0))
           controls.emplace_back(s * end, at(s * end));
         for (const auto &[t, value] : controls)
           size = std::max(size, norm(value));
-        difference = std::max(difference, series.difference(controls));
+        difference = std::max(is_new ? 0 : difference, series.difference(controls));
       }
       series.error_ = size > 0 ? difference / size : 0;
       if (difference <= tolerance * size && n + 1 >= least)

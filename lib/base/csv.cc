@@ -243,8 +243,12 @@ namespace plumbline::base
     std::string names;
     for (const std::string &one : required_)
       names += (names.empty() ? "" : ",") + one;
+    const bool has_names = std::any_of(header_.begin(), header_.end(),
+                                       [](unsigned char c) { return std::isalpha(c) != 0; });
     throw InputError("'" + file_ + "' has no column " + column + " in its first line '" +
-                     base::shown(header_, 80) + "'; name the columns there: " + names);
+                     base::shown(header_, 80) + "'" +
+                     (has_names ? "" : ": the line with the names of columns is missing") +
+                     "; name the columns there: " + names);
   }
 
   bool Csv::has(const std::string &column) const

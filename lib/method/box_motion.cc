@@ -31,37 +31,35 @@ namespace plumbline::method
       return positions;
     }
 
-    /// Couplings by a stencil without entries between components, between free positions.
+    /// Couplings by a stencil of one component between free positions.
     algebra::CsrMatrix assemble(const algebra::Stencil &stencil, const geometry::BoxNodes &nodes)
     {
       constexpr auto none = static_cast<unsigned int>(-1);
       const std::array<int, 3> &n = nodes.n, &reach = stencil.reaches();
-      const auto positions = free_positions(nodes, stencil.n_blocks());
-      std::vector<unsigned int> number(stencil.n_blocks() * nodes.n_positions(), none);
+      const auto positions = free_positions(nodes, 1);
+      std::vector<unsigned int> number(nodes.n_positions(), none);
       for (unsigned int i = 0; i < positions.size(); ++i)
         number[positions[i]] = i;
       algebra::CsrMatrix rows;
       rows.start.assign(1, 0);
-      for (unsigned int c = 0; c < stencil.n_blocks(); ++c)
-        geometry::for_each_index(
-            {0, 0, 0}, n,
-            [&](const std::array<int, 3> &at)
-            {
-              if (!nodes.free(at))
-                return;
-              geometry::for_each_index(
-                  {-reach[0], -reach[1], -reach[2]}, {reach[0] + 1, reach[1] + 1, reach[2] + 1},
-                  [&](const std::array<int, 3> &k)
-                  {
-                    const std::array<int, 3> there = {at[0] + k[0], at[1] + k[1], at[2] + k[2]};
-                    if (!nodes.free(there))
-                      return;
-                    rows.column.push_back(
-                        number[c * nodes.n_positions() + geometry::number_within(there, n)]);
-                    rows.value.push_back(stencil(c, c, k[0], k[1], k[2]));
-                  });
-              rows.start.push_back(rows.column.size());
-            });
+      geometry::for_each_index(
+          {0, 0, 0}, n,
+          [&](const std::array<int, 3> &at)
+          {
+            if (!nodes.free(at))
+              return;
+            geometry::for_each_index(
+                {-reach[0], -reach[1], -reach[2]}, {reach[0] + 1, reach[1] + 1, reach[2] + 1},
+                [&](const std::array<int, 3> &k)
+                {
+                  const std::array<int, 3> there = {at[0] + k[0], at[1] + k[1], at[2] + k[2]};
+                  if (!nodes.free(there))
+                    return;
+                  rows.column.push_back(number[geometry::number_within(there, n)]);
+                  rows.value.push_back(stencil(0, 0, k[0], k[1], k[2]));
+                });
+            rows.start.push_back(rows.column.size());
+          });
       return rows;
     }
 
@@ -73,7 +71,7 @@ namespace plumbline::method
         return MassRoot(std::vector<double>(n_unknowns, own));
       if (nodes.is_free.empty())
         return MassRoot(ProductMass{nodes.n, mass.n_blocks(), own, mass(0, 0, 1, 0, 0) / own});
-      return MassRoot(assemble(mass, nodes));
+      return MassRoot(assemble(mass, nodes), mass.n_blocks());
     }
   } // namespace
 

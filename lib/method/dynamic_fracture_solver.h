@@ -66,8 +66,8 @@ namespace plumbline::method
   /// The load at which a long crack in a strip neither grows nor closes.
   struct StripThreshold
   {
-    double toughness = 0; ///< of the lattice, G_c,h [energy/length]
-    double energy = 0;    ///< W H; NaN where there is none [energy/length]
+    double toughness = 0; ///< of the lattice, G_c,h [force/length]
+    double energy = 0;    ///< W H; NaN where there is none [force/length]
     std::string failure;  ///< why not
   };
 

@@ -14,12 +14,7 @@ namespace plumbline::method
   {
     using State = MassRoot::State;
 
-    Eigen::Map<const Eigen::VectorXd> view(const State &x)
-    {
-      return {x.data(), static_cast<Eigen::Index>(x.size())};
-    }
-
-    State values(const Eigen::VectorXd &x)
+    State values(const Eigen::MatrixXd &x)
     {
       return {x.data(), x.data() + x.size()};
     }
@@ -41,7 +36,18 @@ namespace plumbline::method
   struct MassRoot::Factor
   {
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> permuted;
-    Eigen::SparseMatrix<double> lower;
+    unsigned int n_blocks;
+
+    const Eigen::SparseMatrix<double> &lower() const
+    {
+      return permuted.matrixL().nestedExpression();
+    }
+
+    /// Shape (n, n_blocks).
+    Eigen::Map<const Eigen::MatrixXd> view(const State &x) const
+    {
+      return {x.data(), permuted.rows(), static_cast<Eigen::Index>(n_blocks)};
+    }
   };
 
   /// S = √factor L⊗L⊗L, T = L Lᵀ with L bidiagonal.
@@ -103,12 +109,13 @@ namespace plumbline::method
     is_one_ = std::all_of(roots_.begin(), roots_.end(), [](double root) { return root == 1; });
   }
 
-  MassRoot::MassRoot(const algebra::CsrMatrix &matrix) : factor_(std::make_unique<Factor>())
+  MassRoot::MassRoot(const algebra::CsrMatrix &block, unsigned int n_blocks)
+      : factor_(std::make_unique<Factor>())
   {
-    factor_->permuted.compute(to_matrix(matrix));
+    factor_->n_blocks = n_blocks;
+    factor_->permuted.compute(to_matrix(block));
     if (factor_->permuted.info() != Eigen::Success)
       throw NumericalError("the mass matrix is not positive definite");
-    factor_->lower = factor_->permuted.matrixL();
   }
 
   MassRoot::MassRoot(MassRoot &&) noexcept = default;
@@ -117,7 +124,8 @@ namespace plumbline::method
   State MassRoot::to_state(const State &u) const
   {
     if (factor_)
-      return values(factor_->lower.transpose() * (factor_->permuted.permutationP() * view(u)));
+      return values(factor_->lower().transpose() *
+                    (factor_->permuted.permutationP() * factor_->view(u)));
     if (product_)
       return product_->scaled(
           product_->along_lines(u,
@@ -137,8 +145,9 @@ namespace plumbline::method
   State MassRoot::to_unknowns(const State &x) const
   {
     if (factor_)
-      return values(factor_->permuted.permutationPinv() *
-                    factor_->lower.transpose().triangularView<Eigen::Upper>().solve(view(x)));
+      return values(
+          factor_->permuted.permutationPinv() *
+          factor_->lower().transpose().triangularView<Eigen::Upper>().solve(factor_->view(x)));
     if (product_)
       return product_->scaled(product_->along_lines(x,
                                                     [](const Product::Axis &axis, double *x)
@@ -159,8 +168,8 @@ namespace plumbline::method
   State MassRoot::of_force(const State &f) const
   {
     if (factor_)
-      return values(factor_->lower.triangularView<Eigen::Lower>().solve(
-          factor_->permuted.permutationP() * view(f)));
+      return values(factor_->lower().triangularView<Eigen::Lower>().solve(
+          factor_->permuted.permutationP() * factor_->view(f)));
     if (product_)
       return product_->scaled(product_->along_lines(f,
                                                     [](const Product::Axis &axis, double *x)

@@ -28,8 +28,9 @@ namespace plumbline::method
     /// @param masses  of each unknown, > 0
     explicit MassRoot(std::vector<double> masses);
 
+    /// @param n_blocks  M has so many of these on its diagonal
     /// @throws NumericalError  M is not positive definite
-    explicit MassRoot(const algebra::CsrMatrix &matrix);
+    explicit MassRoot(const algebra::CsrMatrix &block, unsigned int n_blocks = 1);
 
     /// @param mass  positive definite: |off| < 1/2, factor > 0
     explicit MassRoot(const ProductMass &mass);

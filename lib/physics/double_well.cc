@@ -32,9 +32,11 @@ namespace plumbline::physics
         throw InputError("double well: the influence function is empty; give coefficients such as "
                          "1, -1 for 1 - r");
       if (influence.lowest_exponent() < 0)
-        throw InputError("double well: the influence function behaves like r^" +
-                         std::to_string(influence.lowest_exponent()) +
-                         " at 0; it must be bounded: use powers from 0");
+        throw InputError(
+            "double well: the influence function behaves like r^" +
+            std::to_string(influence.lowest_exponent()) +
+            " at 0; it must be bounded: take Kernel/type = constant, conical or linear-decay, or "
+            "powers from 0");
       double largest = 0;
       for (int i = 0; i <= n_samples; ++i)
       {

@@ -86,14 +86,15 @@ namespace plumbline::physics
       {
       case mu::ecUNASSIGNABLE_TOKEN:
       case mu::ecINVALID_NAME:
-        return about("there is an unknown name or sign");
+        return about("there is an unknown name or sign") +
+               " (functions are sin, cos, exp, sqrt, abs, ...; z needs Domain/dimension = 3)";
       case mu::ecUNEXPECTED_EOF:
       case mu::ecEMPTY_EXPRESSION:
         return "it ends where a number, a name or a bracket is missing";
       case mu::ecMISSING_PARENS:
         return "a bracket is not closed";
       case mu::ecUNEXPECTED_OPERATOR:
-        return about("an operator stands where a value must be,");
+        return about("an operator stands where a value must be,") + " (powers are written x^2)";
       case mu::ecUNEXPECTED_VAL:
       case mu::ecUNEXPECTED_VAR:
       case mu::ecUNEXPECTED_FUN:

@@ -189,4 +189,10 @@ namespace plumbline::problem
     problem.lattice = problem.lattice.at_spacing(h);
     return problem;
   }
+
+  bool has_doubled(const Problem<3> &problem)
+  {
+    return problem.lattice.fits(2) && problem.horizon() >= 2 * problem.h() &&
+           inner_vertices(problem.lattice.at_spacing(2 * problem.h())).n_free() > 0;
+  }
 } // namespace plumbline::problem

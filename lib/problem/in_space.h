@@ -59,4 +59,7 @@ namespace plumbline::problem
   /// The problem on cubes of another size, with the same fields.
   /// @throws InputError  sides that are not multiples of h
   Problem<3> at_spacing(Problem<3> problem, double h);
+
+  /// It can be solved with cells of 2 h by all methods.
+  bool has_doubled(const Problem<3> &problem);
 } // namespace plumbline::problem

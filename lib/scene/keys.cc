@@ -426,12 +426,14 @@ namespace plumbline::scene
         path.find('/') == std::string::npos
             ? ""
             : ": there is no section '" + base::shown(path.substr(0, path.find('/'))) + "'";
-    throw InputError("key '" + base::shown(path) + "' is " +
-                     (is_ambiguous ? "in several sections" : "not known") +
-                     (alike.empty() ? no_section + "; the sections are " + join(sections, ", ") +
-                                          ", and 'plumbline describe WORD' finds keys by a word"
-                                    : "; write one of: " + join(alike, ", ")) +
-                     (is_ambiguous ? "" : base::did_you_mean(meant)));
+    throw InputError(
+        "key '" + base::shown(path) + "' is " +
+        (is_ambiguous ? "in several sections" : "not known") +
+        (alike.empty()
+             ? no_section + "; the sections are " + join(sections, ", ") +
+                   ", and 'plumbline describe WORD' finds keys whose help has a word; try one word"
+             : "; write one of: " + join(alike, ", ")) +
+        (is_ambiguous ? "" : base::did_you_mean(meant)));
   }
 
   std::string Keys::name_of(const std::string &path) const

@@ -179,6 +179,13 @@ namespace plumbline::scene
              });
       scene.text = keys.text(false);
       saying("", [&] { complete(scene); });
+      saying("",
+             [&]
+             {
+               require(!scene.material.toughness || keys.is_given("Time/density"),
+                       "Time/density is not given, but Material/E and toughness have units: speeds "
+                       "depend on it; give the density, such as 2450 kg/m^3 with E in Pa");
+             });
       if (const auto unused = find_unused_key(keys, scene))
         return build_without(*unused, keys.default_of(unused->key), file, what, settings, overrides,
                              field);

@@ -2,6 +2,7 @@
 
 #include "geometry/rough_rule.h"
 #include "scene/scene.h"
+#include "study/motion_norms.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -235,13 +236,7 @@ namespace plumbline::study
 
   double node_area(const problem::Problem<2> &problem, const Solution &solution)
   {
-    if (problem.lattice())
-      return problem.h * problem.h;
-    const auto &area = problem.cells()->area;
-    return std::accumulate(area.begin(),
-                           area.begin() + static_cast<std::ptrdiff_t>(problem.cells()->n_free),
-                           0.) /
-           static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
+    return area_of(problem) / static_cast<double>(std::max<std::size_t>(1, solution.nodes.size()));
   }
 
   std::vector<dealii::Point<2>> comparison_points(const problem::Problem<2> &problem)

@@ -52,16 +52,22 @@ namespace plumbline::study
           trend.outcome == Outcome::failed)
         return;
       double estimate = 0;
+      std::string remedy = "take a better reference (Reference/method)";
       for (const ErrorEstimate &one : results.references)
         if (one.problem == trend.problem && one.series == trend.series)
+        {
           estimate = one.estimate; // of the finest level, the last one
+          if (one.p_change < one.h_change)
+            remedy = "the reference's error falls with h, not with the degree; refine Study/h, or, "
+                     "if sides of the mesh stand for curves, set Domain/sides = curved";
+        }
       if (trend.values.back() < 10 * estimate)
       {
         trend.outcome = Outcome::undecided;
         trend.leaning = Leaning::none;
         trend.reason = "the last difference " + base::to_text(trend.values.back(), 4) +
                        " is not ten times the reference's own estimate " +
-                       base::to_text(estimate, 4) + ": take a better reference (Reference/method)";
+                       base::to_text(estimate, 4) + ": " + remedy;
       }
     }
 
@@ -172,6 +178,9 @@ namespace plumbline::study
             (is_unrefined
                  ? "outer quadrature is not refined, so entries have an unknown error; set "
                    "Quadrature/tolerance above 0"
+             : scene.domain.is_in_space()
+                 ? "refine Study/h; where the solution or its data jump, as u may at the boundary, "
+                   "the accuracy is low"
              : is_continuous
                  ? "where the solution or its data jump, a continuous space loses accuracy, so "
                    "take a discontinuous one (Reference/method = " +

@@ -267,8 +267,8 @@ namespace plumbline::study
       Record record = place.record("crack", method);
       const method::StripThreshold threshold = find_threshold(scene, method, place.level());
       const physics::DoubleWell law = scene::make_double_well(scene, record.key.horizon);
-      record.set("G_c", law.toughness(), "energy/length");
-      record.set("c", law.c(), "energy/length");
+      record.set("G_c", law.toughness(), "force/length");
+      record.set("c", law.c(), "force/length");
       record.set("beta", law.beta(), "1/length");
       record.set("softening strain", law.softening_strain(law.horizon()));
       record.set("G_c,h / G_c", threshold.toughness / law.toughness());

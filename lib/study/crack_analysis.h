@@ -16,7 +16,7 @@ namespace plumbline::study
   /// Of a scene with a notched strip (section Crack) the threshold of every level, and the crack's
   /// motion at the finest one of the first series.
   ///
-  /// Scalars of each level: "G_c" of the law [energy/length], "G_c,h / G_c" of the lattice, and
+  /// Scalars of each level: "G_c" of the law [force/length], "G_c,h / G_c" of the lattice, and
   /// "W H / G_c,h" at the threshold, or the text "no threshold". Where the crack moves, texts
   /// "outcome" and "reason", the scalars of CrackMotion and others; curves "samples" over time and
   /// "moments", the times of the components of the field "damage".

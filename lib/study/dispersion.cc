@@ -123,7 +123,7 @@ namespace plumbline::study
         {
           const double difference =
               (along_axis - speed(symbol.long_waves(diagonal)[i])) / local_speed(i);
-          if (!(std::abs(difference) <= std::abs(result))) // NaN stays
+          if (std::isnan(difference) || std::abs(difference) > std::abs(result)) // NaN stays
             result = difference;
         }
         return result;

@@ -3,6 +3,7 @@
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
 #include "study/preflight.h"
+#include "study/reference_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,8 +69,9 @@ namespace plumbline::study
       return size;
     }
 
+    /// @param more  bytes, besides those of a static solution
     void require(const Method &method, const method::ProblemSize &size, const std::string &what,
-                 unsigned int n_jobs)
+                 unsigned int n_jobs, double more = 0)
     {
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
@@ -80,7 +82,7 @@ namespace plumbline::study
              << " cells)";
       else
         text << "some " << std::round(size.n_cells) << " cells)";
-      base::require_memory(method.expected_bytes(size), text.str(),
+      base::require_memory(method.expected_bytes(size) + more, text.str(),
                            "choose a larger h or a smaller horizon (Study/h, Study/m, "
                            "Study/horizon), run the first levels only (--levels), or leave this "
                            "method out (--methods)",
@@ -94,19 +96,9 @@ namespace plumbline::study
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
         require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_jobs);
-      if (const auto higher = method.higher_degree(); higher && size.is_lattice())
+      if (const auto higher = method.higher_degree();
+          higher && size.is_lattice() && !scene.domain.is_in_space())
         require(*higher, size, what, n_jobs);
-    }
-
-    bool is_estimated(const scene::Scene &scene, const Method &method)
-    {
-      if (method.family() != method::MethodFamily::reference ||
-          scene.reference.estimate == scene::Estimate::none)
-        return false;
-      return method.name() == scene.reference.method ||
-             scene.reference.estimate == scene::Estimate::every ||
-             (scene.reference.estimate == scene::Estimate::automatic && !scene.reference.method &&
-              scene.problem.solutions.empty());
     }
 
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
@@ -143,7 +135,8 @@ namespace plumbline::study
       for (const auto &method : methods)
       {
         require(*method, size, "", n_jobs);
-        if (is_estimated(scene, *method))
+        if (is_estimated(scene, *method) || (method->name() == scene.reference.method &&
+                                             scene.reference.estimate != scene::Estimate::none))
           require_estimate(scene, *method, size, n_jobs);
       }
     }
@@ -173,5 +166,23 @@ namespace plumbline::study
           require_all(scene, all, of_same_cells(coarse, series.levels[i]), n_jobs);
         }
     }
+  }
+
+  void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
+                              unsigned int n_levels, unsigned int n_jobs)
+  {
+    // states, energies and nodes; load, constraint and solution at Chebyshev's points in time
+    constexpr double n_states = 15, n_points = 33;
+    const double n_vectors = n_states + (scene.is_steady() ? 3 : 3 * n_points);
+    for (const auto &series : scene.study.series)
+      for (std::size_t i = 0; i < series.levels.size() && (n_levels == 0 || i < n_levels); ++i)
+        for (const auto &method : methods)
+        {
+          const method::ProblemSize size = lattice_size(scene, series.levels[i]);
+          const double n_unknowns =
+              size.n_components * size.extents[0] * size.extents[1] * size.depth;
+          require(*method, size, "transient analysis by ", n_jobs,
+                  sizeof(double) * n_vectors * n_unknowns);
+        }
   }
 } // namespace plumbline::study

@@ -126,6 +126,9 @@ namespace plumbline::study
     {
       constexpr double slowest = .9; // errors ten times the change
       const double best = std::exp2(-static_cast<double>(method.order()));
+      if constexpr (dim == 3)
+        if (!problem::has_doubled(problems.at(0)))
+          return std::max(best, .5);
       try
       {
         ProblemsInTime<dim> coarser = problems.resized(2 * problems.at(0).level().h);

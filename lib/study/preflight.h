@@ -36,6 +36,12 @@ namespace plumbline::study
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
                     unsigned int n_levels, unsigned int n_jobs = 1);
 
+  /// The same of transient analyses in space: their vectors besides what a static solution takes.
+  /// Accuracy: within a factor of 2 of the memory measured at 64³ and 96³ cells.
+  /// @pre scene.domain.is_in_space()
+  void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
+                              unsigned int n_levels, unsigned int n_jobs = 1);
+
   /// Check that meshes, nodes and cracks of all levels can be used, and that expressions are finite
   /// in Ω and its collar on a grid of samples: for all cases and series, at the level whose ball
   /// reaches farthest.

@@ -57,6 +57,15 @@ namespace plumbline::study
     return safety * change / (1 - contraction);
   }
 
+  bool is_estimated(const scene::Scene &scene, const Method &method)
+  {
+    return method.family() == method::MethodFamily::reference &&
+           method.name() != scene.reference.method &&
+           (scene.reference.estimate == scene::Estimate::every ||
+            (scene.reference.estimate == scene::Estimate::automatic && !scene.reference.method &&
+             scene.problem.solutions.empty()));
+  }
+
   double solver_error(double tolerance, double size)
   {
     return solver_share * tolerance * size;

@@ -12,6 +12,9 @@ namespace plumbline::study
   /// Decimal digits of a solution of a given size that an estimate of its error leaves certain.
   unsigned int certified_digits(double estimate, double size);
 
+  /// Whether a scene wants the error of a method's solutions, besides the reference, estimated.
+  bool is_estimated(const scene::Scene &scene, const Method &method);
+
   /// By how much an error falls as h is halved, as far as two changes show: `now` to h/2, `before`
   /// from 2 h (0: not known), but no less than is expected of the method and no more than 3/4.
   double contraction(double before, double now, double expected);

@@ -129,14 +129,6 @@ namespace plumbline::study
       }
 
       /// Besides the reference.
-      bool is_estimated(const Method &method, const problem::Problem<2> &problem) const
-      {
-        return method.family() == MethodFamily::reference &&
-               method.name() != scene_.reference.method &&
-               (scene_.reference.estimate == scene::Estimate::every ||
-                (scene_.reference.estimate == scene::Estimate::automatic &&
-                 !scene_.reference.method && !problem.solution));
-      }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
       bool is_saving_due(const Method &method, const OpenCase &one, const Record &record) const
@@ -200,7 +192,7 @@ namespace plumbline::study
                                    const Solution &solution,
                                    const std::vector<dealii::Point<2>> &points) const
       {
-        const bool is_shown = is_estimated(method, one.problem),
+        const bool is_shown = is_estimated(scene_, method),
                    is_at_points = !points.empty() && method.family() == MethodFamily::reference &&
                                   scene_.reference.estimate != scene::Estimate::none;
         if (!is_shown && !is_at_points)

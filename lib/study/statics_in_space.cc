@@ -157,13 +157,6 @@ namespace plumbline::study
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
-    /// It can be solved with cells of 2 h.
-    bool has_doubled(const ProblemInSpace &problem)
-    {
-      return problem.lattice.fits(2) && problem.horizon() >= 2 * problem.h() &&
-             inner_vertices(problem.lattice.at_spacing(2 * problem.h())).n_free() > 0;
-    }
-
     /// At points, by the change to h/2, but no less than twice the root mean square of these.
     /// @param contraction  of changes as h is halved
     std::vector<double> estimate_at(const std::vector<dealii::Point<3>> &points,
@@ -204,7 +197,7 @@ namespace plumbline::study
       const SolutionInSpace fine = analysis::solve(method, at_spacing(problem, problem.h() / 2));
       estimate.h_change =
           averages_l2(problem, solution.averages, coarsened(fine.averages, problem));
-      if (has_doubled(problem))
+      if (problem::has_doubled(problem))
       {
         const ProblemInSpace coarse = at_spacing(problem, 2 * problem.h());
         estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
@@ -246,7 +239,7 @@ namespace plumbline::study
                       {
                         const SolutionInSpace solution = analysis::solve(method, one.problem);
                         evaluate(one, solution, record);
-                        tell_values(method, one.problem, solution, record);
+                        tell_values(method, one, solution, record);
                       });
         }
         return records;
@@ -277,10 +270,8 @@ namespace plumbline::study
         const SolutionInSpace solution = analysis::solve(*method, one.problem);
         if (scene_.reference.estimate == scene::Estimate::none)
           return solution.averages;
-        ErrorEstimate estimate = estimate_of(*method, one.problem, solution);
-        estimate.problem = one.name;
-        estimate.series = place_.series().name;
-        estimate.level = place_.number();
+        const ErrorEstimate estimate =
+            placed(estimate_of(*method, one.problem, solution), one.name);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem, solution.averages);
         if (const double tolerance = scene_.reference.tolerance;
@@ -309,29 +300,48 @@ namespace plumbline::study
              {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
               std::pair(Target::reference, &one.reference)})
           if (!averages->empty())
-            set_errors(run, Quantity::averages, target, solution.averages, *averages);
+            set_errors(run, Quantity::averages, target, problem.n_components, solution.averages,
+                       *averages);
         if (problem.solution)
-          set_errors(run, Quantity::nodal, Target::exact, solution.nodal,
+          set_errors(run, Quantity::nodal, Target::exact, problem.n_components, solution.nodal,
                      nodal_values(*problem.solution, solution));
         if (problem.local_solution)
-          set_errors(run, Quantity::nodal, Target::local, solution.nodal,
+          set_errors(run, Quantity::nodal, Target::local, problem.n_components, solution.nodal,
                      nodal_values(*problem.local_solution, solution));
         if (place_.is_finest())
           finish_series(one, solution, run);
       }
 
-      /// At the points where they are wanted.
-      void tell_values(const Method &method, const ProblemInSpace &problem,
+      /// The estimate of its error, where one is wanted, and values at points, where there are
+      /// some.
+      void tell_values(const Method &method, const CaseInSpace &one,
                        const SolutionInSpace &solution, const Record &run) const
       {
-        if (!options_.points_in_space)
-          return;
-        const auto points = options_.points_in_space(problem);
+        const ProblemInSpace &problem = one.problem;
+        const auto points = options_.points_in_space ? options_.points_in_space(problem)
+                                                     : std::vector<dealii::Point<3>>{};
+        const bool is_shown = is_estimated(scene_, method),
+                   is_at_points = !points.empty() &&
+                                  method.family() == method::MethodFamily::reference &&
+                                  scene_.reference.estimate != scene::Estimate::none;
         std::vector<double> errors;
-        if (method.family() == method::MethodFamily::reference &&
-            scene_.reference.estimate != scene::Estimate::none)
-          errors = estimate_of(method, problem, solution, points).at_points;
-        options_.on_values(values_at(points, problem, solution, std::move(errors)), run);
+        if (is_shown || is_at_points)
+        {
+          const ErrorEstimate found = estimate_of(method, problem, solution, points);
+          errors = found.at_points;
+          if (is_shown)
+            place_.results().estimates.push_back(placed(found, one.name));
+        }
+        if (!points.empty())
+          options_.on_values(values_at(points, problem, solution, std::move(errors)), run);
+      }
+
+      ErrorEstimate placed(ErrorEstimate estimate, const std::string &name) const
+      {
+        estimate.problem = name;
+        estimate.series = place_.series().name;
+        estimate.level = place_.number();
+        return estimate;
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
@@ -366,8 +376,8 @@ namespace plumbline::study
         return values;
       }
 
-      /// Of the scene's norms. Each value stands for h³.
-      void set_errors(Record &run, Quantity quantity, Target target,
+      /// Of the scene's norms. Each value stands for the same part of Ω.
+      void set_errors(Record &run, Quantity quantity, Target target, unsigned int n_components,
                       const std::vector<double> &found, const std::vector<double> &right) const
       {
         double largest = 0, squares = 0;
@@ -376,7 +386,8 @@ namespace plumbline::study
           largest = std::max(largest, std::abs(found[i] - right[i]));
           squares += std::pow(found[i] - right[i], 2);
         }
-        const double l2 = std::sqrt(squares * std::pow(run.key.h, 3));
+        const double n_places = static_cast<double>(found.size()) / n_components,
+                     l2 = std::sqrt(squares * run["area"] / n_places);
         for (const scene::Norm norm : scene_.study.norms)
           if (scene::quantity(norm) == quantity)
           {

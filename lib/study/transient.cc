@@ -226,14 +226,16 @@ namespace plumbline::study
       {
         const scene::TimeSection &time = scene_.time;
         const double critical = transient_->critical_step(scheme),
-                     step = step_of(rule, *transient_, scheme);
+                     wanted = step_of(rule, *transient_, scheme);
+        const std::uint64_t n_steps = analysis::n_equal_steps(time.final_time, wanted);
+        const double step = scheme.is_runge_kutta
+                                ? wanted // between samples; its own steps are adaptive
+                                : time.final_time / static_cast<double>(n_steps);
         record.set("time step", step, "time");
         record.set("critical step", critical, "time");
         const std::uint64_t n_samples = time.shows_blow_up ? 2000 : 100; // it grows fast
         State state = data_->start;
-        analysis::EnergyLog log(*transient_, state,
-                                static_cast<std::uint64_t>(std::ceil(time.final_time / step)),
-                                n_samples);
+        analysis::EnergyLog log(*transient_, state, n_steps, n_samples);
         double watching = 0; // CPU seconds of what the scheme itself does not do
         unsigned int n_frames = 0;
         const base::CpuTimer timer;
@@ -406,8 +408,14 @@ namespace plumbline::study
   Analysis transient_analysis(const Methods &available, const TransientOptions &options)
   {
     Analysis analysis{"dynamics", "Transient analysis"};
-    analysis.choose_methods = [](const scene::Scene &scene, const Methods &all, unsigned int,
-                                 unsigned int) { return study::choose_methods(scene, all); };
+    analysis.choose_methods = [](const scene::Scene &scene, const Methods &all,
+                                 unsigned int n_levels, unsigned int n_jobs)
+    {
+      Methods methods = study::choose_methods(scene, all);
+      if (scene.domain.is_in_space())
+        check_memory_of_motion(scene, methods, n_levels, n_jobs);
+      return methods;
+    };
     analysis.check = check_transient;
     analysis.analyse = [available, options](const Place &place, const Method &method)
     {

@@ -213,8 +213,12 @@ namespace plumbline::study
           [&](const std::string &what, const std::string &why, const std::string &saving)
       { results.facts[left_out_of_model + what] = why + "; saves " + saving; };
       if (!scene.is_vector())
-        leave_out("the second component", "the kernel is scalar, so components do not couple",
-                  "half the unknowns, a quarter of the bonds' work");
+        scene.domain.is_in_space()
+            ? leave_out("the second and third components",
+                        "the kernel is scalar, so components do not couple",
+                        "two thirds of the unknowns, eight ninths of the bonds' work")
+            : leave_out("the second component", "the kernel is scalar, so components do not couple",
+                        "half the unknowns, three quarters of the bonds' work");
       if (!scene.material.model->is_linear())
         leave_out("bond state", "double wells break by the law itself, without memory",
                   "a bit for each bond");

@@ -31,6 +31,7 @@ namespace plumbline::meshfree
     add("C1111", [](const CubicStiffness &one) { return one.C1111; });
     add("C1122", [](const CubicStiffness &one) { return one.C1122; });
     add("C1212", [](const CubicStiffness &one) { return one.C1212; });
+    add("(C1111-C1122)/2", [](const CubicStiffness &one) { return (one.C1111 - one.C1122) / 2; });
     const std::vector<std::pair<ElasticState, std::string>> states =
         dim == 2 ? std::vector<std::pair<ElasticState, std::string>>{{ElasticState::plane_stress,
                                                                       ", plane stress"},

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -79,6 +80,7 @@ namespace plumbline::meshfree
     WeightsInSpace given;
     base::Csv csv(file, {"id", "x", "y", "z", "volume"});
     std::unordered_set<std::int64_t> ids;
+    std::map<std::array<double, 3>, std::size_t> line_of_place;
     while (csv.next())
     {
       const std::int64_t id = csv.integer("id");
@@ -87,6 +89,12 @@ namespace plumbline::meshfree
                  " is given already; give every node an id of its own");
       given.id.push_back(id);
       given.places.emplace_back(csv.number("x"), csv.number("y"), csv.number("z"));
+      const auto &x = given.places.back();
+      if (const auto [other, is_new] =
+              line_of_place.emplace(std::array{x[0], x[1], x[2]}, csv.line());
+          !is_new)
+        csv.fail("node " + std::to_string(id) + " lies where that of line " +
+                 std::to_string(other->second) + " is; take one of them out");
       given.volumes.push_back(csv.number("volume"));
       if (!(given.volumes.back() > 0))
         csv.fail("the volume of node " + std::to_string(id) +

@@ -53,6 +53,16 @@ TEST(TimeSeries, sums_with_what_took_more_points)
   }
 }
 
+TEST(TimeSeries, takes_all_its_points_where_they_suffice)
+{
+  // 33 points are off by 2e-3, 65 by round-off
+  const auto wave = [](double t) { return std::vector<double>{std::sin(.3 - 12 * t)}; };
+  const TimeSeries series = TimeSeries::resolve(wave, 4, 1e-9, "wave", 2);
+  EXPECT_EQ(series.n_points(), 65u);
+  for (const double t : {.013, 1.7, 2.22, 3.99})
+    EXPECT_NEAR(series.at(t)[0], wave(t)[0], 1e-11) << t;
+}
+
 TEST(TimeSeries, refuses_what_is_not_smooth)
 {
   EXPECT_THROW(

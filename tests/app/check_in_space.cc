@@ -294,6 +294,9 @@ TEST_F(CheckInSpace, refuses_files_that_cannot_be_used)
   write(right);
   std::ofstream(folder_ / "nodes.csv") << "id,x,y,volume\n1,0.1,0.1,0.008\n";
   expect_refused("has no column z");
+  std::ofstream(folder_ / "nodes.csv") << "id,x,y,z,volume\n1,0.1,0.1,0.1,0.008\n"
+                                          "2,0.1,0.1,0.1,0.008\n";
+  expect_refused("line 3: node 2 lies where that of line 2 is");
   Dump one = right;
   one.rows[3].j = one.rows[3].i;
   write(one);

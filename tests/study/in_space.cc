@@ -223,6 +223,17 @@ TEST(StaticsInSpace, have_the_memory_that_is_foretold)
   }
 }
 
+TEST(StaticsInSpace, and_motions_are_refused_without_the_memory_they_need)
+{
+  const auto huge = make_scene({{"Study/h", "1/8, 1/700"},
+                                {"Time/final time", "1"},
+                                {"Problem/solution", "x*sin(t)"},
+                                {"Study/norms", "nodal Linf"}});
+  const Methods methods = choose_methods(make_scene({}), available());
+  check_memory_of_motion(huge, methods, 1);
+  EXPECT_THROW(check_memory_of_motion(huge, methods, 0), InputError);
+}
+
 TEST(StateBasedInSpace, are_exact_where_the_moments_are_those_of_the_field)
 {
   const std::string quadratic = "x^2 + y*z, 2*x*z - y^2, z^2 + x*y",
@@ -244,6 +255,25 @@ TEST(StateBasedInSpace, are_exact_where_the_moments_are_those_of_the_field)
               << record.key.method << ", nu = " << nu << ", " << holes;
         }
       }
+}
+
+TEST(StateBasedInSpace, need_values_within_two_horizons)
+{
+  constexpr double horizon = .375;
+  const auto influence = physics::influence_function<3>({{1, -1}}, horizon);
+  problem::Problem<3> problem{geometry::CubeLattice({{{{0, 0, 0}, {1, 1, 1}}}, {}}, .125),
+                              physics::deviatoric_kernel(influence, 1)};
+  problem.load.value = [](const dealii::Point<3> &, unsigned int) { return 0; };
+  problem.constraint.value = [](const dealii::Point<3> &x, unsigned int)
+  { return std::sqrt(1.6 - x[0]); }; // not finite beyond 1.6
+  problem.constraint.is_piecewise = true;
+  EXPECT_NO_THROW(problem::complete(problem));
+  problem.dilatation = {influence,
+                        [](const dealii::Point<3> &) {
+                          return physics::Lame{3, 1};
+                        },
+                        false, true};
+  EXPECT_THROW(problem::complete(problem), InputError);
 }
 
 TEST(StateBasedInSpace, are_judged_by_the_moments_of_bonds_and_dilatation)
@@ -286,6 +316,32 @@ TEST(StateBasedInSpace, of_equal_constants_are_bonds_alone)
   }
 }
 
+TEST(StaticsInSpace, weigh_nodes_alike_wherever_they_are)
+{
+  const auto results = run(make_scene({{"Problem/solution", "x"},
+                                       {"Problem/local solution", "x + 1"},
+                                       {"Methods/names", "FA, Q1, DGQ0"},
+                                       {"Study/norms", "nodal L2"},
+                                       {"Study/decisive error", "nodal L2 | exact"}}));
+  for (const Record &record : results.records)
+    EXPECT_NEAR(record["nodal L2 | local"], 1, 1e-12) << record.key.method;
+}
+
+TEST(StaticsInSpace, are_estimated_where_nothing_else_is_known)
+{
+  const auto results = run(make_scene({{"Problem/solution", ""},
+                                       {"Problem/load", "sin(3*x)*y + z"},
+                                       {"Problem/constraint", "0"},
+                                       {"Problem/local solution", "0"},
+                                       {"Methods/names", "FA, Q1"},
+                                       {"Study/norms", "averages L2"},
+                                       {"Study/decisive error", "averages L2 | local"}}));
+  ASSERT_EQ(results.estimates.size(), 2u); // of Q1 at both levels
+  EXPECT_EQ(results.estimates[0].method, "Q1");
+  EXPECT_LT(results.estimates[1].estimate, results.estimates[0].estimate);
+  EXPECT_GT(results.estimates[1].estimate, 0);
+}
+
 TEST(StaticsInSpace, refuse_what_is_for_the_plane)
 {
   const std::vector<std::pair<Settings, std::string>> refused = {
@@ -315,6 +371,13 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
        "write a nodal or averages norm"},
       {{{"Methods/names", "Q2"}}, "take Q1, DGQ0"},
       {{{"Problem/solution", "x*w"}}, "in x, y, z, pi, delta"},
+      {{{"Quadrature/tolerance", "1e-3"}}, "has no effect here"},
+      {{{"Geometry/checks", "5"}}, "has no effect here"},
+      {{{"Solver/linear solver", "direct"}}, "has no effect here"},
+      {{{"Time/final time", "1"}, {"Study/norms", "nodal Linf"}, {"Output/fields", "true"}},
+       "Time/frames writes states"},
+      {{{"Time/final time", "1"}, {"Study/norms", "nodal Linf"}, {"Solver/tolerance", "1e-9"}},
+       "it needs a static problem"},
       {{{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}}, "needs 3"}};
   for (const auto &[settings, words] : refused)
     EXPECT_NE(message_of(settings).find(words), std::string::npos)

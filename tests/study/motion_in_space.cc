@@ -22,14 +22,15 @@ namespace
   /// Moves until t = 1/2, by schemes that are exact in time to 1e-12 where none is given.
   StudyResults run(const std::string &boxes, const std::string &solution,
                    const std::string &methods, const std::string &time = "",
-                   const std::string &h = "1/4")
+                   const std::string &h = "1/4", const std::string &kernel = "")
   {
     const bool is_vector = solution.find(',') != std::string::npos;
     const scene::Scene scene = scene::parse_scene(
         "t.prm", "subsection Domain\n set dimension = 3\n set boxes = " + boxes +
                      "\nend\nsubsection Kernel\n set type = " +
-                     (is_vector ? "bond-tensor\n set limit = Navier"
-                                : "linear-decay\n set limit = -Laplace") +
+                     (!kernel.empty() ? kernel
+                      : is_vector     ? "bond-tensor\n set limit = Navier"
+                                      : "linear-decay\n set limit = -Laplace") +
                      "\nend\nsubsection Problem\n set solution = " + solution +
                      "\nend\nsubsection Time\n set final time = 0.5\n" +
                      (time.empty() ? " set schemes = Runge-Kutta\n" : time) +
@@ -80,6 +81,38 @@ TEST(MotionInSpace, of_trilinear_functions_has_their_mass_matrix)
   for (const std::string &boxes : {cube, l_shape})
     for (const std::string &solution : {scalar, vector})
       EXPECT_LT(error_of(run(boxes, solution, "Q1")), 1e-9) << boxes << ": " << solution;
+}
+
+TEST(MotionInSpace, of_a_state_based_solid_is_exact_for_polynomials)
+{
+  const std::string lps = "1/r\n set limit = Navier\nend\nsubsection Material\n set model = LPS\n"
+                          " set E = 2\n set nu = 0.4";
+  EXPECT_LT(error_of(run(l_shape, "(x^3*y^2 + z^4)*(1 + t^3), y^2*z^3*t + x*z, x^2*y*z*t^2 + y^3",
+                         "IPA-AC-R4", "", "1/4", lps)),
+            1e-9);
+  EXPECT_LT(
+      error_of(run(cube, "x*y*z*t^2, (x + y*z)*t^3 + z^2, y*t^2 + x*z", "Q1", "", "1/4", lps)),
+      1e-9);
+}
+
+TEST(MotionInSpace, records_the_steps_that_are_taken_and_the_speed_of_its_own_kernel)
+{
+  const StudyResults results =
+      run(cube, "x*t", "FA", " set schemes = velocity Verlet\n set steps = 0.06, 0.03\n", "1/4",
+          "constant\n set limit = none\n set constant = 10");
+  for (const Record &record : results.records)
+    EXPECT_NEAR(record["time step"] * record["time steps"], .5, 1e-12);
+  // ½ c ∫ξ_1² = ½ c 4π δ⁵/15
+  const double speed = std::sqrt(.5 * 10 * 4 * M_PI / 15 * std::pow(.75, 5));
+  EXPECT_NEAR(std::stod(results.facts.at("speed of long waves")), speed, 1e-5);
+}
+
+TEST(MotionInSpace, of_a_thin_body_has_an_estimate_without_cells_of_twice_the_size)
+{
+  const StudyResults results = run("0, 0, 0 : 1, 1, 1/2", "0*x", "Q1",
+                                   " set initial displacement = sin(pi*x)*sin(pi*y)*sin(2*pi*z)\n"
+                                   " set schemes = velocity Verlet\n set steps = 0.02, 0.01\n");
+  EXPECT_EQ(results.records.size(), 2u);
 }
 
 TEST(MotionInSpace, by_velocity_verlet_is_of_second_order_and_keeps_its_energy)

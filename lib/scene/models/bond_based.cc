@@ -81,7 +81,9 @@ namespace plumbline::scene
       std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
                                                              double horizon) const override
       {
-        const physics::LocalLimit limit = kernel(scene, horizon).limit();
+        const physics::LocalLimit limit = scene.domain.is_in_space()
+                                              ? kernel_in_space(scene, horizon).limit()
+                                              : kernel(scene, horizon).limit();
         const auto speed = [&](double modulus)
         { return base::to_text(std::sqrt(modulus / scene.time.density), 6); };
         if (scene.is_vector())

@@ -33,8 +33,9 @@ namespace plumbline::scene
     keys.add("dimension", dimension, count(1, 3),
              "2: the plane. 1: a line, the first axis of the boxes; expressions depend on x and "
              "have one component (transient analyses of Material/model = double well with "
-             "Domain/boundary = periodic). 3: space; expressions depend on x, y and z (static "
-             "problems of Material/model = bond-based with Domain/mesh = lattice).");
+             "Domain/boundary = periodic). 3: space; expressions depend on x, y and z "
+             "(static, transient and dispersion analyses of linear models with Domain/mesh = "
+             "lattice).");
     keys.add(
         "boxes", "0, 0 : 1, 1", any_boxes(),
         [this](const std::string &text)

@@ -95,7 +95,8 @@ namespace plumbline::scene
         throw InputError("Kernel/" + std::string(key) + " is for " + types_with(key) +
                          ", but Kernel/type = '" + type + "'; clear it or choose one of them");
       if (!is_given && known.key == key)
-        throw InputError("Kernel/type = '" + type + "' needs a profile; give Kernel/" + key);
+        throw InputError("Kernel/type = '" + type + "' needs a profile; give Kernel/" + key +
+                         (known.key == "width" ? ", in horizons, such as 0.5" : ""));
     }
     profile = known.profile;
     if (known.make == nullptr)

@@ -143,7 +143,8 @@ namespace plumbline::scene
       const bool is_first_empty = given[i][0].empty();
       if (is_first_empty != given[i][1].empty())
         throw InputError("Material/" + pairs[i][is_first_empty ? 1 : 0] + " needs Material/" +
-                         pairs[i][is_first_empty ? 0 : 1] + ", which is empty");
+                         pairs[i][is_first_empty ? 0 : 1] +
+                         ", which is empty; give both, or neither");
       if (is_first_empty)
         continue;
       ++n_pairs;
