@@ -243,7 +243,8 @@ namespace plumbline::base
     std::string names;
     for (const std::string &one : required_)
       names += (names.empty() ? "" : ",") + one;
-    const bool has_names = std::any_of(header_.begin(), header_.end(),
+    const bool has_names =
+        header_.empty() || std::any_of(header_.begin(), header_.end(),
                                        [](unsigned char c) { return std::isalpha(c) != 0; });
     throw InputError("'" + file_ + "' has no column " + column + " in its first line '" +
                      base::shown(header_, 80) + "'" +

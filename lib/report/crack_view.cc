@@ -76,9 +76,11 @@ namespace plumbline::report
       else if (outcome == base::word(scene::CrackOutcome::arrests))
         text += " after " + rounded(record["advance"]) + ", " + horizons + ", of its notch's tip";
       else
-        text += " at a speed of " + rounded(record["speed"]) + ", " +
-                rounded(record["speed / c_R"]) + " of that of Rayleigh waves, at most " +
-                rounded(record["fastest / c_R"]);
+        text += record["speed"] > 0
+                    ? " at a speed of " + rounded(record["speed"]) + ", " +
+                          rounded(record["speed / c_R"]) + " of that of Rayleigh waves, at most " +
+                          rounded(record["fastest / c_R"])
+                    : ", at a speed that is not known: its way has too few samples for a fit";
       text += "; the picture is " + (record["asymmetry"] == 0
                                          ? std::string("symmetric to the last bit")
                                          : "asymmetric by " + rounded(record["asymmetry"]));

@@ -36,9 +36,6 @@ namespace plumbline::scene
             "write bond-based, LPS or variational");
       needs(material.is_homogeneous, "constants that vary in space (section Material)",
             "write numbers");
-      require(material.plane == physics::PlaneState::strain,
-              "Material/plane = stress is for two dimensions; clear it, or write "
-              "Domain/dimension = 2");
       require(material.given[2][0].empty() && material.given[2][1].empty(),
               "Material/k and Material/l are constants of the plane; write Material/E and "
               "Material/nu, or Domain/dimension = 2");

@@ -355,7 +355,7 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
       {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
       {{{"Methods/nodes", "vertices"}}, "write centres"},
       {{{"Material/model", "double well"}}, "write bond-based, LPS or variational"},
-      {with(lps, {{"Material/plane", "stress"}}), "Material/plane = stress is for two dimensions"},
+      {with(lps, {{"Material/plane", "stress"}}), "Material/plane = stress has no effect here"},
       {with(lps, {{"Material/E", "1 + x"}}), "constants that vary in space"},
       {{{"Kernel/type", "1/r"},
         {"Kernel/limit", "Navier"},

@@ -96,7 +96,7 @@ namespace plumbline::scene
                          ", but Kernel/type = '" + type + "'; clear it or choose one of them");
       if (!is_given && known.key == key)
         throw InputError("Kernel/type = '" + type + "' needs a profile; give Kernel/" + key +
-                         (known.key == "width" ? ", in horizons, such as 0.5" : ""));
+                         " ('plumbline describe Kernel/" + key + "' explains it)");
     }
     profile = known.profile;
     if (known.make == nullptr)

@@ -42,6 +42,8 @@ namespace plumbline::scene
   void MethodsSection::complete() const
   {
     if (names.empty())
-      throw InputError("Methods/names is empty; name methods ('plumbline list methods'), or all");
+      throw InputError(
+          "Methods/names is empty; name methods ('plumbline list methods'), or all; for a "
+          "reference alone, name its method");
   }
 } // namespace plumbline::scene
