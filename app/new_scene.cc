@@ -16,7 +16,7 @@ namespace plumbline::app
   {
     namespace fs = std::filesystem;
 
-    constexpr auto square = "square", cube = "cube", elastic = "elastic";
+    constexpr auto square = "square", cube = "cube", elastic = "elastic", scalar = "scalar";
 
     std::vector<scene::Override> changes_of(const NewSceneOptions &options, const fs::path &folder)
     {
@@ -25,7 +25,7 @@ namespace plumbline::app
         changes = {{"Domain/dimension", "3"},
                    {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
                    {"Problem/solution",
-                    options.kind == elastic ? "x^3*y^2, y^2*z^3, x^2*z + y^3" : "x^3 + 2*y^2*z^2"},
+                    options.kind == scalar ? "x^3 + 2*y^2*z^2" : "x^3*y^2, y^2*z^3, x^2*z + y^3"},
                    {"Methods/names", "FA, IPA-AC, IPA-AC-R2, Q1"},
                    {"Study/h", "0.25, 0.125, 0.0625, 0.03125"},
                    {"Study/norms", "nodal Linf, averages L2"}};

@@ -61,17 +61,44 @@ namespace plumbline::python
       analysis::SolutionInSpace solution;
     };
 
-    std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &box,
-                                               const py::object &exclude, double h,
-                                               const py::object &load, const py::object &constraint,
+    /// Bonds of the kernel, or a state-based solid whose influence function has its profile.
+    /// @param lame  (λ, μ), or None
+    ProblemInSpace problem_of(const geometry::CubeLattice &lattice, const Kernel<3> &kernel,
+                              const py::object &lame)
+    {
+      if (lame.is_none())
+        return {lattice, kernel};
+      const Doubles given = Doubles::ensure(lame);
+      if (!given)
+        PyErr_Clear();
+      if (!given || given.size() != 2)
+        throw InputError("lame must be two numbers, (lambda, mu)");
+      const physics::Lame solid{given.data()[0], given.data()[1]};
+      if (!(solid.mu > 0 && 3 * solid.lambda + 2 * solid.mu > 0 && std::isfinite(solid.lambda)))
+        throw InputError("lame = (" + std::to_string(solid.lambda) + ", " +
+                         std::to_string(solid.mu) + "): give mu > 0 and lambda > -2 mu / 3");
+      if (kernel.structure() != physics::Structure::scalar)
+        throw InputError("lame with a bond tensor: the kernel of a state-based solid is its "
+                         "influence function; give a scalar one, such as '1/r'");
+      const auto influence = physics::influence_function<3>(kernel.profile(), kernel.horizon());
+      ProblemInSpace problem{lattice, physics::deviatoric_kernel(influence, solid.mu)};
+      if (solid.lambda != solid.mu)
+        problem.dilatation = {influence, [solid](const Point<3> &) { return solid; }, false, true};
+      return problem;
+    }
+
+    std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &lame,
+                                               const py::object &box, const py::object &exclude,
+                                               double h, const py::object &load,
+                                               const py::object &constraint,
                                                const py::object &solution)
     {
       const GivenField given_load("load", load), given_constraint("constraint", constraint),
           given_solution("solution", solution);
       const geometry::CubeLattice lattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")},
                                           h);
+      ProblemInSpace problem = problem_of(lattice, kernel, lame);
       const py::gil_scoped_release others;
-      ProblemInSpace problem{lattice, kernel};
       const auto field = [&](const GivenField &one)
       { return one.field_in_space(problem.n_components, kernel.horizon()); };
       problem.load = field(given_load);
@@ -193,25 +220,29 @@ namespace plumbline::python
         module, "SpaceProblem",
         R"doc(One boundary-value problem on boxes of cubes: L u = load in them, u = constraint around them.
 
-Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None)
+Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None, lame=None)
 
+kernel      of the bonds; with lame the influence function, of which only profile and horizon count
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
 load, constraint, solution
             each an expression in x, y and z ("sin(3*x)*z"; three components separated by commas), a
             number, or a function f(x, y, z) of arrays, which is called point by point and slower.
-            Without a load: that of the solution; without a constraint: the solution)doc")
+            Without a load: that of the solution; without a constraint: the solution
+lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is then prescribed within two
+            horizons of the boxes)doc")
         .def(py::init(
                  [](const Kernel<3> &kernel, const py::object &box, double h,
                     const py::object &exclude, const py::object &load, const py::object &constraint,
-                    const py::object &solution)
+                    const py::object &solution, const py::object &lame)
                  {
                    return std::const_pointer_cast<ProblemInSpace>(
-                       pose(kernel, box, exclude, h, load, constraint, solution));
+                       pose(kernel, lame, box, exclude, h, load, constraint, solution));
                  }),
              "kernel"_a, py::kw_only(), "box"_a, "h"_a, "exclude"_a = py::none(),
-             "load"_a = py::none(), "constraint"_a = py::none(), "solution"_a = py::none())
+             "load"_a = py::none(), "constraint"_a = py::none(), "solution"_a = py::none(),
+             "lame"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
         .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
     py::class_<SolvedInSpace>(module, "SpaceSolution",

@@ -36,6 +36,13 @@ namespace plumbline::scene
             "write bond-based, LPS or variational");
       needs(material.is_homogeneous, "constants that vary in space (section Material)",
             "write numbers");
+      if (material.model->is_state_based() && material.is_homogeneous)
+      {
+        const physics::Lame lame = material.lame()({});
+        require(3 * lame.lambda + 2 * lame.mu > 0,
+                "Material/lambda = " + short_number(lame.lambda) +
+                    " must be larger than -2 mu / 3 in three dimensions; give such a lambda");
+      }
       require(material.given[2][0].empty() && material.given[2][1].empty(),
               "Material/k and Material/l are constants of the plane; write Material/E and "
               "Material/nu, or Domain/dimension = 2");

@@ -109,7 +109,11 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
   fs::remove(cube + ".prm");
   EXPECT_EQ(run("new " + cube + " --kind elastic --domain cube").exit_code, 0);
   EXPECT_EQ(run("run " + cube + ".prm --levels 2 --quiet -o " + cube + "_out").exit_code, 0);
-  expect_found(run("new " + cube + "_LPS --kind LPS --domain cube").err, "write bond-based");
+  const std::string solid = temporary("new_solid").string();
+  fs::remove(solid + ".prm");
+  EXPECT_EQ(run("new " + solid + " --kind LPS --domain cube").exit_code, 0);
+  EXPECT_EQ(run("run " + solid + ".prm --levels 1 --quiet -o " + solid + "_out").exit_code, 0);
+  expect_found(run("new " + cube + "_k --kind variational --domain cube").err, "write constrained");
   expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
   expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
 }

@@ -44,6 +44,7 @@ TEST(ElasticCheck, exact_moments_give_the_material)
   const std::vector<std::pair<std::string, double>> expected = {{"C1111", 180},
                                                                 {"C1122", 60},
                                                                 {"C1212", 60},
+                                                                {"(C1111-C1122)/2", 60},
                                                                 {"E, plane stress", 160},
                                                                 {"nu, plane stress", 1. / 3},
                                                                 {"E, plane strain", 150},
@@ -68,7 +69,10 @@ TEST(ElasticCheck, whole_cells_have_the_constants_of_their_lattice)
   EXPECT_NEAR(found[0].least, expected.C1111, 1e-10);
   EXPECT_NEAR(found[0].largest, expected.C1111, 1e-10);
   EXPECT_NEAR(found[2].median, expected.C1212, 1e-10);
-  EXPECT_NEAR(found[3].median / 160, 209.7 / 200, 3e-4); // plane stress, by hand
+  // by hand, E = 200 in plane stress: E and the shear moduli along and across the axes
+  EXPECT_NEAR(found[4].median / 160, 209.7 / 200, 3e-4);
+  EXPECT_NEAR(found[2].median / 160, 74.3 / 200, 3e-4);
+  EXPECT_NEAR(found[3].median / 160, 79.5 / 200, 3e-4);
 }
 
 TEST(ElasticCheck, scalars_have_none)

@@ -98,6 +98,23 @@ def test_domain_is_union_of_boxes_minus_holes():
         np.testing.assert_allclose(solved.values, x**2 - y * z, rtol=0, atol=1e-12)
 
 
+def test_state_based_solids_have_their_constants():
+    u = "x^2 + y*z, 2*x*z - y^2, z^2 + x*y"
+    influence = space.Kernel("1/r", 3 / 8, diffusion=1)  # profile and horizon count
+    def error(lame, load):
+        problem = space.Problem(influence, box=((0, 0, 0), (1, 1, 1)), h=1 / 8, constraint=u,
+                                load=load, lame=lame)
+        solved = space.solve(problem, "IPA-AC-R2")
+        x, y, z = solved.nodes.T
+        exact = np.stack([x**2 + y * z, 2 * x * z - y**2, z**2 + x * y], axis=1)
+        return abs(solved.values - exact).max()
+    # laplacian (2, -2, 2), div u = 2 x - 2 y + 2 z
+    for lam, mu in ((3, 1), (1, 1), (-.5, 1)):
+        load = ", ".join(str(-s * (2 * mu + 2 * (lam + mu))) for s in (1, -1, 1))
+        assert error((lam, mu), load) < 1e-10
+    assert error((3, 1), "-4, 4, -4") > 1e-3
+
+
 def test_kernels_have_their_moments():
     kernel = space.Kernel("linear-decay", .3, diffusion=.5)
     assert kernel.moment((2, 0, 0)) == pytest.approx(1)
@@ -113,6 +130,10 @@ def test_kernels_have_their_moments():
                              solution="x"), "outside"),
     (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5), "neither a load nor a solution"),
     (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x, y"), "components"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x, y, z", lame=(1, -1)),
+     "mu > 0"),
+    (lambda k: space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x, y, z", lame=3),
+     "two numbers"),
     (lambda k: space.weights("FB", k, .5), "FB"),
     (lambda k: space.weights("FA", k, 0), "above 0"),
     (lambda k: space.solve(space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.25, solution="x"), "Q2"),

@@ -145,7 +145,8 @@ TEST(Errors, of_vectors_are_of_each_component)
   solution.nodal = {1.25, .25 + .3, 1.75 - .4, .25};
   const auto found = errors(scene.study.norms, problem, solution, {});
   EXPECT_NEAR(found.at("nodal Linf | exact"), .4, 1e-14);
-  EXPECT_NEAR(found.at("nodal L2 | exact"), .1 * std::hypot(.3, .4), 1e-14); // h² a node
+  EXPECT_NEAR(found.at("nodal L2 | exact"), std::hypot(.3, .4) / std::sqrt(2.),
+              1e-14); // half of Ω each
 }
 
 TEST(Errors, of_fields_are_of_the_domain_alone)
