@@ -79,7 +79,7 @@ namespace plumbline::physics
     const DilatationInSpace of_dilatation(dilatation->influence);
     const Lame lame = dilatation->material({});
     const double factor = dilatation->factor(lame, lame), horizon = of_dilatation.horizon();
-    const unsigned int of_profile = dilatation->influence.profile().degree();
+    const unsigned int of_profile = dilatation->influence.profile().degree() / 2;
     for (const double inner : {0., horizon})
       for_each_point(
           inner, inner + horizon, n_radii + of_profile, degree,
