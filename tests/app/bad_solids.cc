@@ -100,7 +100,10 @@ TEST_F(BadSolids, constants_of_no_solid_are_refused)
         {"Material/E and toughness replace Material/c and beta; clear one of these pairs"}},
        {set("Material/model", "double well") + set("Material/nu", "") +
             set("Material/toughness", "-8"),
-        {"Material/toughness = -8 must be positive and finite"}}});
+        {"Material/toughness = -8 must be positive and finite"}},
+       {set("Material/model", "double well") + set("Material/nu", "") +
+            set("Material/toughness", "8") + set("Kernel/type", "constant"),
+        {"Time/density is not given"}}});
 }
 
 TEST_F(BadSolids, material_that_is_none_somewhere_is_refused_with_its_place)

@@ -77,6 +77,7 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--kernel nope", "choose one of");
   expect("--m 0.5", "is not between 1");
   expect("--m nan", "--m");
+  expect("--m 3,015", "looks like a number with a decimal comma; write 3.015");
   expect("--rules XY", "choose all or of FA, LAMMPS");
   expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
   expect("--E 0", "give a number above 0");

@@ -6,9 +6,11 @@
 #include "meshfree/rules/rules.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
+#include <thread>
 
 namespace
 {
@@ -39,7 +41,7 @@ namespace
         along += xi[d] * (moved[$2, d] - moved[$1, d])
       }
       for (d = 1; d <= dim; ++d)
-        force[$1, d] += $3 * along / square * xi[d] / (volume ? volume : 1)
+        force[$1, d] += $3 * along / square * (1 + cubic * along ^ 2) * xi[d] / (volume ? volume : 1)
     }
     END {
       print dim == 2 ? "id,fx,fy" : "id,fx,fy,fz"
@@ -302,6 +304,36 @@ TEST_F(Probe, refuses_what_it_cannot_use)
   expect_refused(across, "forces are not along the bonds", "--horizon 1");
   std::ofstream(path("nodes.csv")) << "id,x,y\n1,2,3\n";
   expect_refused(program(), "has no column volume");
+}
+
+TEST_F(Probe, refuses_forces_that_are_not_linear)
+{
+  write_program<2>("FA", 2);
+  expect_refused(program("-v cubic=1e8"), "forces are not linear in the displacements",
+                 "--horizon 1");
+}
+
+TEST_F(Probe, refuses_a_folder_as_its_file_before_anything_is_run)
+{
+  write_program<2>("FA", 2);
+  const Outcome outcome =
+      run("probe " + path("nodes.csv") + " --command \"" + script("touch " + path("begun")) +
+          "\" --horizon 1 -o " + folder_.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  expect_found(outcome.err, "is a folder; give the name of a file");
+  EXPECT_FALSE(fs::exists(path("begun")));
+}
+
+TEST_F(Probe, ends_what_the_command_left_in_the_background)
+{
+  write_program<2>("FA", 2);
+  expect_refused(script("(trap 'touch " + path("ended") +
+                        "; exit' TERM; sleep 30 & wait) & "
+                        "sleep .3; exit 3"),
+                 "failed with exit code 3");
+  for (int i = 0; i < 100 && !fs::exists(path("ended")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(fs::exists(path("ended")));
 }
 
 TEST_F(Probe, writes_no_file_when_interrupted)
