@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace plumbline::physics
@@ -17,6 +18,21 @@ namespace plumbline::physics
         transform.push_back((k == 0 ? 1. : 2.) / n *
                             std::cos(M_PI * ((k * (2 * i + 1)) % (4 * n)) / (2. * n)));
     return transform;
+  }
+
+  /// Σ_k c_k T_k(s), c_k = series[k].*entry, by Clenshaw's recurrence.
+  /// @param series  at least one term
+  template <class Series, class Term>
+  double chebyshev_sum(const Series &series, double Term::*entry, double s)
+  {
+    double last = 0, sum = 0;
+    for (std::size_t k = series.size() - 1; k > 0; --k)
+    {
+      const double next = series[k].*entry + 2 * s * sum - last;
+      last = sum;
+      sum = next;
+    }
+    return series[0].*entry + s * sum - last;
   }
 
   /// T_0 ... T_{n-1} at a place of [-1, 1].

@@ -92,16 +92,7 @@ namespace plumbline::physics
     if (!(w < 2 * horizon_))
       return {};
     const std::vector<Value> &series = series_[w < horizon_ ? 0 : 1];
-    const double twice = 2 * (2 * (w < horizon_ ? w : w - horizon_) / horizon_ - 1);
-    Value last, sum; // by Clenshaw's recurrence
-    for (std::size_t k = series.size() - 1; k > 0; --k)
-    {
-      const Value next{series[k].across + twice * sum.across - last.across,
-                       series[k].excess + twice * sum.excess - last.excess};
-      last = sum;
-      sum = next;
-    }
-    return {series[0].across + .5 * twice * sum.across - last.across,
-            series[0].excess + .5 * twice * sum.excess - last.excess};
+    const double s = 2 * (w < horizon_ ? w : w - horizon_) / horizon_ - 1;
+    return {chebyshev_sum(series, &Value::across, s), chebyshev_sum(series, &Value::excess, s)};
   }
 } // namespace plumbline::physics

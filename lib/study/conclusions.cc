@@ -56,8 +56,10 @@ namespace plumbline::study
       for (const ErrorEstimate &one : results.references)
         if (one.problem == trend.problem && one.series == trend.series)
         {
-          estimate = one.estimate; // of the finest level, the last one
-          if (one.p_change < one.h_change)
+          estimate = one.estimate;      // of the finest level, the last one
+          if (std::isnan(one.p_change)) // there is no higher degree
+            remedy = "refine Study/h";
+          else if (one.p_change > 0 && one.p_change < one.h_change)
             remedy = "the reference's error falls with h, not with the degree; refine Study/h, or, "
                      "if sides of the mesh stand for curves, set Domain/sides = curved";
         }

@@ -66,6 +66,24 @@ namespace plumbline::study
              scene.problem.solutions.empty()));
   }
 
+  ErrorEstimate placed(ErrorEstimate estimate, const Place &place, const std::string &problem)
+  {
+    estimate.problem = problem;
+    estimate.series = place.series().name;
+    estimate.level = place.number();
+    return estimate;
+  }
+
+  void raise_to_mean(std::vector<double> &estimates, double more)
+  {
+    constexpr double least = 2;
+    double squares = 0;
+    for (const double e : estimates)
+      squares += e * e / static_cast<double>(estimates.size());
+    for (double &e : estimates)
+      e = std::max(e, least * std::sqrt(squares)) + more;
+  }
+
   double solver_error(double tolerance, double size)
   {
     return solver_share * tolerance * size;
@@ -201,19 +219,14 @@ namespace plumbline::study
                                                                    other.value(points_[i], c)));
       }
 
-      /// No less than twice their root mean square, and what is not from changes.
       void finish_points(double outer_change)
       {
-        constexpr double least = 2;
-        double squares = 0, size = 0;
-        for (const double e : estimate_.at_points)
-          squares += e * e / static_cast<double>(points_.size());
+        double size = 0;
         for (const dealii::Point<2> &x : points_)
           for (unsigned int c = 0; c < problem_.n_components; ++c)
             size = std::max(size, std::abs(solution_.value(x, c)));
-        for (double &e : estimate_.at_points)
-          e = std::max(e, least * std::sqrt(squares)) + outer_change * size +
-              solver_error(problem_.settings.solver.tolerance, size);
+        raise_to_mean(estimate_.at_points,
+                      outer_change * size + solver_error(problem_.settings.solver.tolerance, size));
       }
 
       /// By h/2: the error is the change over 1 - q.

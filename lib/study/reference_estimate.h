@@ -2,6 +2,7 @@
 
 #include "analysis/statics.h"
 #include "scene/problem.h"
+#include "study/analysis.h"
 #include "study/results.h"
 
 namespace plumbline::study
@@ -14,6 +15,13 @@ namespace plumbline::study
 
   /// Whether a scene wants the error of a method's solutions, besides the reference, estimated.
   bool is_estimated(const scene::Scene &scene, const Method &method);
+
+  /// An estimate with the case and the place that it is of.
+  ErrorEstimate placed(ErrorEstimate estimate, const Place &place, const std::string &problem);
+
+  /// Of estimates at points, which are changes that may pass through zero: no less than twice their
+  /// root mean square, and what is not from changes.
+  void raise_to_mean(std::vector<double> &estimates, double more);
 
   /// By how much an error falls as h is halved, as far as two changes show: `now` to h/2, `before`
   /// from 2 h (0: not known), but no less than is expected of the method and no more than 3/4.

@@ -111,21 +111,13 @@ namespace plumbline::study
             ReferenceAverages reference = solve_reference(
                 one, *find_method(available_, *scene_.reference.method, "Reference/method"),
                 scene_.reference);
-            results_.references.push_back(placed(reference.estimate, one.name));
+            results_.references.push_back(placed(reference.estimate, place_, one.name));
             one.targets.reference = std::move(reference.averages);
           }
           if (scene_.problem.local_solution == scene::LocalSolution::computed)
             one.targets.local = local_averages(one.problem);
         }
         return cases;
-      }
-
-      ErrorEstimate placed(ErrorEstimate estimate, const std::string &name) const
-      {
-        estimate.problem = name;
-        estimate.series = place_.series().name;
-        estimate.level = place_.number();
-        return estimate;
       }
 
       /// Besides the reference.
@@ -200,7 +192,7 @@ namespace plumbline::study
         const ErrorEstimate found = estimate_error(
             one, method, solution, true, is_at_points ? points : std::vector<dealii::Point<2>>{});
         if (is_shown)
-          results_.estimates.push_back(placed(found, one.name));
+          results_.estimates.push_back(placed(found, place_, one.name));
         return found.at_points;
       }
 

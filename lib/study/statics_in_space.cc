@@ -163,9 +163,8 @@ namespace plumbline::study
                                     const ProblemInSpace &problem, const SolutionInSpace &solution,
                                     const SolutionInSpace &fine, double contraction)
     {
-      constexpr double least = 2;
       std::vector<double> errors;
-      double squares = 0, size = 0;
+      double size = 0;
       for (const auto &x : points)
       {
         double change = 0;
@@ -175,11 +174,8 @@ namespace plumbline::study
           size = std::max(size, std::abs(solution.value(x, c)));
         }
         errors.push_back(error_of_change(change, contraction));
-        squares += errors.back() * errors.back() / static_cast<double>(points.size());
       }
-      for (double &error : errors)
-        error = std::max(error, least * std::sqrt(squares)) +
-                solver_error(problem.settings.solver.tolerance, size);
+      raise_to_mean(errors, solver_error(problem.settings.solver.tolerance, size));
       return errors;
     }
 
@@ -271,7 +267,7 @@ namespace plumbline::study
         if (scene_.reference.estimate == scene::Estimate::none)
           return solution.averages;
         const ErrorEstimate estimate =
-            placed(estimate_of(*method, one.problem, solution), one.name);
+            placed(estimate_of(*method, one.problem, solution), place_, one.name);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem, solution.averages);
         if (const double tolerance = scene_.reference.tolerance;
@@ -330,18 +326,10 @@ namespace plumbline::study
           const ErrorEstimate found = estimate_of(method, problem, solution, points);
           errors = found.at_points;
           if (is_shown)
-            place_.results().estimates.push_back(placed(found, one.name));
+            place_.results().estimates.push_back(placed(found, place_, one.name));
         }
         if (!points.empty())
           options_.on_values(values_at(points, problem, solution, std::move(errors)), run);
-      }
-
-      ErrorEstimate placed(ErrorEstimate estimate, const std::string &name) const
-      {
-        estimate.problem = name;
-        estimate.series = place_.series().name;
-        estimate.level = place_.number();
-        return estimate;
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.

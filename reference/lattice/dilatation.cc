@@ -1,6 +1,7 @@
 #include "reference/lattice/dilatation.h"
 
 #include "base/error.h"
+#include "physics/chebyshev_basis.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -275,18 +276,10 @@ namespace plumbline::reference
                      : n_levels - 1;
     const double to = std::ldexp(.5, -static_cast<int>(level));
     const double from = level + 1 < n_levels ? .5 * to : 0;
-    const double x = 2 * (2 * distance - from - to) / (to - from); // twice the series' argument
+    const double x = (2 * distance - from - to) / (to - from);
     const Series &series = series_[part * n_levels + level];
-    Value last{0, 0}, sum{0, 0};
-    for (unsigned int k = n_terms - 1; k > 0; --k)
-    {
-      const Value next{series[k].along + x * sum.along - last.along,
-                       series[k].across + x * sum.across - last.across};
-      last = sum;
-      sum = next;
-    }
-    return {series[0].along + .5 * x * sum.along - last.along,
-            series[0].across + .5 * x * sum.across - last.across};
+    return {physics::chebyshev_sum(series, &Value::along, x),
+            physics::chebyshev_sum(series, &Value::across, x)};
   }
 
   algebra::Stencil dilatation_stencil(const physics::Kernel<2> &influence, double factor, double h,
