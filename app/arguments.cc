@@ -49,9 +49,10 @@ namespace plumbline::app
       const std::vector<std::string> words = words_of(text);
       for (const std::string &word : words)
         if (&word != &words.front() && word.size() > 1 && word[0] == '0' && word[1] != '.')
-          throw InputError(option + ": '" + text +
-                           "' looks like a number with a decimal comma; write 3.015 for it, and "
-                           "separate numbers by blanks or ', '");
+          throw InputError(
+              option + ": '" + text +
+              "' looks like a number with a decimal comma; write 3.015, not 3,015, and "
+              "separate numbers by blanks or ', '");
         else if (const auto number = to_number(word))
           numbers.push_back(*number);
         else

@@ -70,8 +70,8 @@ namespace plumbline::app
       return result;
     }
 
-    /// The leader of a process group, which an interrupt ends.
-    /// @return  its status as of waitpid
+    /// Waits for the leader of a process group; an interrupt terminates the group.
+    /// @return  its status as returned by waitpid
     int wait_for(pid_t process)
     {
       using std::chrono::milliseconds;

@@ -28,9 +28,9 @@ namespace plumbline::app
     std::vector<dealii::Point<2>> of(const problem::Problem<2> &problem) const;
     std::vector<dealii::Point<3>> of(const problem::Problem<3> &problem) const;
 
-    /// Coordinates, u, the exact solution and the error where the former is known, how far u is
-    /// from that of the level before, if this object has written it, and an estimate of the error
-    /// where there is one; numbers read back to the same bits.
+    /// Writes coordinates and u; the exact solution and the error, if the solution is known; the
+    /// change of u from the level before, if this object has written that level; the estimated
+    /// error, if there is one. Numbers read back to the same bits.
     /// @param folder  of the files, made if it is not there
     /// @throws InputError  a file that cannot be written
     void write(const study::ValuesAtPoints &found, const analysis::Record &run,

@@ -181,7 +181,7 @@ namespace plumbline::app
             "forces are not linear in the displacements: halving the step changes them "
             "by " +
             base::to_percent(found.nonlinearity) +
-            " of the largest force constant, so that these are not known; give a "
+            " of the largest force constant, so the force constants cannot be determined; give a "
             "smaller --step");
       base::write_file(options.output, bonds_csv(found, nodes));
       if (!options.quiet)

@@ -222,7 +222,7 @@ namespace plumbline::python
 
 Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None, lame=None)
 
-kernel      of the bonds; with lame the influence function, of which only profile and horizon count
+kernel      of the bonds; with lame, the influence function (only its profile and horizon are used)
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
@@ -231,7 +231,7 @@ load, constraint, solution
             number, or a function f(x, y, z) of arrays, which is called point by point and slower.
             Without a load: that of the solution; without a constraint: the solution
 lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is then prescribed within two
-            horizons of the boxes)doc")
+            horizons of the boxes (one if lambda = mu))doc")
         .def(py::init(
                  [](const Kernel<3> &kernel, const py::object &box, double h,
                     const py::object &exclude, const py::object &load, const py::object &constraint,

@@ -18,8 +18,8 @@ namespace plumbline::analysis
     double tolerance = 1e-12;
   };
 
-  /// The steps that schemes of equal steps take: as many as it takes, a little shorter than asked
-  /// for so that they end on time. 0 where there is no time to pass.
+  /// Number of steps of a scheme with equal steps: the fewest that are no longer than `step`, up to
+  /// rounding, and end exactly at `time`. 0 if time = 0.
   std::uint64_t n_equal_steps(double time, double step);
 
   struct Counts

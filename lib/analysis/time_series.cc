@@ -73,7 +73,7 @@ namespace plumbline::analysis
         size = std::max(size, norm(finer.back()));
       }
       series.values_ = std::move(finer);
-      // the former half of the points is known to be too few, or the controls decide
+      // at the last n a large difference only shows that n / 2 is too small: the controls decide
       const bool is_new = difference > tolerance * size && n == last;
       if ((difference <= tolerance * size || is_new) && n + 1 >= least)
       {

@@ -248,7 +248,7 @@ namespace plumbline::base
                                        [](unsigned char c) { return std::isalpha(c) != 0; });
     throw InputError("'" + file_ + "' has no column " + column + " in its first line '" +
                      base::shown(header_, 80) + "'" +
-                     (has_names ? "" : ": the line with the names of columns is missing") +
+                     (has_names ? "" : ": the header line is missing") +
                      "; name the columns there: " + names);
   }
 

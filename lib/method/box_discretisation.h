@@ -22,8 +22,8 @@ namespace plumbline::method
     std::vector<dealii::Point<3>> nodes; ///< the method's own free nodes in Ω
     std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
     std::vector<double> averages;        ///< over the cells of Ω, shape (n_cells, n_components)
-    /// u in Ω, which is closed: of meshfree rules the value of the cell; on faces between cells any
-    /// of the two. Thread safe.
+    /// u in the closed domain Ω: trilinear for nodes at vertices; for nodes at centres the value of
+    /// a cell that contains x, of either cell on a face between two. Thread-safe.
     std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
   };
 

@@ -14,7 +14,7 @@ namespace plumbline::physics
   {
     using Value = DilatationInSpace::Value;
 
-    /// f f is a polynomial of this degree, twice, in p and s together.
+    /// Degree of the polynomial f(r) = K(r) r; f f has twice this degree in p and s together.
     unsigned int degree_of(const RadialProfile &profile)
     {
       return profile.lowest_exponent() + 1 + profile.degree();
@@ -78,10 +78,10 @@ namespace plumbline::physics
     const RadialProfile &profile = influence.profile();
     if (!profile.breaks().empty() || profile.lowest_exponent() < -1)
       throw InputError(
-          "the dilatation of a solid in space needs an influence function that is smooth within "
-          "the horizon and at most like 1/r at its centre; this one " +
+          "the dilatation in three dimensions needs an influence function that is smooth inside "
+          "the horizon and at most as singular as 1/r at r = 0; this one " +
           (profile.breaks().empty()
-               ? "is like r^" + std::to_string(profile.lowest_exponent())
+               ? "behaves like r^" + std::to_string(profile.lowest_exponent())
                : "has a table of " + std::to_string(profile.breaks().size() + 2) + " rows") +
           "; choose another Kernel/type");
     series_ = {series_from(0, influence), series_from(horizon_, influence)};

@@ -10,11 +10,12 @@ namespace plumbline::physics
   /// The kernel that couples displacements in space through the product of their dilatations
   /// θ_u(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ in an infinite homogeneous body,
   ///   ∫ θ_u θ_v dx = -∬ v(x)·C(w) u(x+w) dw dx,   C(w) = ∫ K(|ξ|) ξ ⊗ K(|w-ξ|) (w-ξ) dξ,
-  /// zero beyond 2δ and, as ∫C = 0, that of bonds of this length. With p = |ξ| + |w-ξ| and
+  /// zero for |w| > 2δ. As ∫C = 0, it acts like bonds of length up to 2δ. With p = |ξ| + |w-ξ| and
   /// |w| s = |ξ| - |w-ξ|, and f(r) = K(r) r, its entries along and across w are
   ///   along   π/4 ∫∫ f((p+|w|s)/2) f((p-|w|s)/2) (|w|² - p²s²) dp ds
   ///   across -π/8 ∫∫ f((p+|w|s)/2) f((p-|w|s)/2) (p² - |w|²) (1 - s²) dp ds
-  /// over -1 < s < 1, |w| < p < 2δ - |w||s|: smooth but for |w| = δ, where s begins to be bounded.
+  /// over -1 < s < 1, |w| < p < 2δ - |w||s|: smooth except at |w| = δ, beyond which
+  /// |s| < (2δ - |w|)/|w|.
   class DilatationInSpace
   {
   public:

@@ -21,7 +21,7 @@ namespace plumbline::physics
 
   double operator_scale(const Dilatation<3> &dilatation)
   {
-    // |C| is at most the integral of the moduli, whose own is (∫ K |ξ|)²
+    // ∫|C(w)| dw <= (∫ K |ξ| dξ)², by the triangle inequality
     const Kernel<3> &influence = dilatation.influence;
     const double moment = operator_scale(influence) * influence.horizon(); // |ξ| <= δ
     const Lame lame = dilatation.material({});

@@ -30,8 +30,8 @@ namespace plumbline::physics
     double noise() const { return noise_; } ///< round-off, absolute
 
   private:
-    /// Of one half of the ball; opposite ones count with it. The weight includes C, which is
-    /// across I + excess ξ⊗ξ/|ξ|².
+    /// A quadrature point in one half of the ball; it also stands for the opposite point. Its
+    /// values are those of C = across I + excess ξ⊗ξ/|ξ|², times the weight.
     struct BondPoint
     {
       Point<3> xi;
@@ -56,6 +56,6 @@ namespace plumbline::physics
   /// of C length^3].
   double operator_scale(const Kernel<3> &kernel);
 
-  /// The same of a dilatation, ∫_{|w|<2δ} |λ - μ| |C(w)|.
+  /// The same for a dilatation: an upper bound of |λ - μ| ∫_{|w|<2δ} |C(w)|.
   double operator_scale(const Dilatation<3> &dilatation);
 } // namespace plumbline::physics

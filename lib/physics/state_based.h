@@ -48,7 +48,7 @@ namespace plumbline::physics
   ///            - ∫ 2 (dim + 2) μ K ξ⊗ξ/|ξ|² (u(x+ξ) - u(x)) dξ
   /// where f = λ - μ is taken at the dilatation's own point (variational model), or is the
   /// difference of the harmonic means of both ends (linear peridynamic solid). Zero where λ = μ:
-  /// then the bonds are all.
+  /// then only the bonds remain.
   /// Sources: Fan et al. 2022, eq. (2.5); Silling et al. 2007, doi:10.1007/s10659-007-9125-1.
   template <int dim>
   struct Dilatation

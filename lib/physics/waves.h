@@ -45,9 +45,9 @@ namespace plumbline::physics
   /// over 0 < r < δ, C = radial(r).
   /// Source: Silling 2000, doi:10.1016/S0022-5096(99)00029-0, ω² = ∫ C (1 - cos k·ξ) dξ, its angles
   /// integrated by Bessel's and Gegenbauer's integrals.
+  /// A dilatation with influence function K adds (λ - μ) g² to ω² of longitudinal waves, with
+  /// g = |S| ∫ K J1(z) r^d dr, which tends to k as δ → 0.
   /// @param k  > 0 [1/length], at most 1e4 / δ
-  /// A dilatation of influence K adds (λ - μ) g² to ω² of longitudinal waves, g =
-  /// |S| ∫ K J1(z) r^d dr → k.
   /// @param dilatation  of a homogeneous solid, or empty
   /// Accuracy: 1e-13 relative. Instantiated for dim = 2 and 3.
   /// @throws NumericalError  the quadrature does not settle to 1e-12
@@ -58,7 +58,7 @@ namespace plumbline::physics
   /// The square of the speed of all waves of the local limit, and of long ones here: diffusion,
   /// λ + 2μ or μ.
   /// @param limit  of the bonds
-  /// @param solid  the constants of a state-based solid, whose λ is another; empty: bonds are all
+  /// @param solid  the constants of a state-based solid, whose λ is another; empty: bonds only
   double squared_local_speed(const LocalLimit &limit, const std::optional<Lame> &solid,
                              Polarisation polarisation);
 } // namespace plumbline::physics

@@ -34,7 +34,7 @@ namespace plumbline::problem
     geometry::CubeLattice lattice;
     physics::Kernel<3> kernel;
     unsigned int n_components = kernel.n_components();
-    std::optional<physics::Dilatation<3>> dilatation = {}; ///< homogeneous; empty: bonds are all
+    std::optional<physics::Dilatation<3>> dilatation = {}; ///< homogeneous; empty: bonds only
     Field<3> load = {};                          ///< empty: manufactured from the solution
     Field<3> constraint = {};                    ///< around Ω; empty: the solution
     std::optional<Field<3>> solution = {};       ///< the exact nonlocal solution, if known

@@ -69,7 +69,7 @@ namespace plumbline::problem
     double h = 0; ///< of the level [length]
     physics::Kernel<dim> kernel;
     std::optional<physics::Coefficient> coefficient = {};  ///< of the bonds; empty: homogeneous
-    std::optional<physics::Dilatation<2>> dilatation = {}; ///< empty: bonds are all
+    std::optional<physics::Dilatation<2>> dilatation = {}; ///< empty: bonds only
     unsigned int n_components = 0;
     Field<dim> load = {};                          ///< b on Ω
     Field<dim> constraint = {};                    ///< u in the interaction domain

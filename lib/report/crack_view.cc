@@ -78,9 +78,9 @@ namespace plumbline::report
       else
         text += record["speed"] > 0
                     ? " at a speed of " + rounded(record["speed"]) + ", " +
-                          rounded(record["speed / c_R"]) + " of that of Rayleigh waves, at most " +
+                          rounded(record["speed / c_R"]) + " of the Rayleigh wave speed, at most " +
                           rounded(record["fastest / c_R"])
-                    : ", at a speed that is not known: its way has too few samples for a fit";
+                    : ", at an unknown speed: too few tip positions were sampled for a fit";
       text += "; the picture is " + (record["asymmetry"] == 0
                                          ? std::string("symmetric to the last bit")
                                          : "asymmetric by " + rounded(record["asymmetry"]));

@@ -87,7 +87,7 @@ namespace plumbline::scene
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
         return {"Domain/dimension = 3, which is available for static, transient and dispersion "
-                "analyses and the check of weights, for linear materials",
+                "analyses of linear materials and for the check of weights",
                 "write 2"};
       }
       return {};

@@ -431,7 +431,7 @@ namespace plumbline::scene
         (is_ambiguous ? "in several sections" : "not known") +
         (alike.empty()
              ? no_section + "; the sections are " + join(sections, ", ") +
-                   ", and 'plumbline describe WORD' finds keys whose help has a word; try one word"
+                   "; 'plumbline describe WORD' lists the keys whose name or help contains WORD"
              : "; write one of: " + join(alike, ", ")) +
         (is_ambiguous ? "" : base::did_you_mean(meant)));
   }

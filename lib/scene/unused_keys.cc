@@ -23,7 +23,7 @@ namespace plumbline::scene
       const Regime regime = scene.study.regime;
       const bool takes_horizon = regime == Regime::m || regime == Regime::horizon,
                  is_static = !scene.time.is_dynamic(), is_in_space = scene.domain.is_in_space();
-      const std::string exact = "two dimensions; entries on lattices in space are exact";
+      const std::string exact = "two dimensions; entries on lattices in three dimensions are exact";
       return {{"Study/m", !takes_horizon,
                "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
                    " the horizon is Study/horizon"},
@@ -45,7 +45,8 @@ namespace plumbline::scene
               {"Geometry/checks", !is_in_space, "two dimensions"},
               {"Geometry/seed", !is_in_space, "two dimensions"},
               {"Solver/linear solver", !is_in_space,
-               "two dimensions; lattices in space are solved by conjugate gradients with sine "
+               "two dimensions; lattices in three dimensions are solved by conjugate gradients "
+               "with sine "
                "transforms"},
               {"Solver/tolerance", is_static || !is_in_space, "a static problem"},
               {"Solver/max iterations", is_static || !is_in_space, "a static problem"},

@@ -60,8 +60,8 @@ namespace plumbline::study
           if (std::isnan(one.p_change)) // there is no higher degree
             remedy = "refine Study/h";
           else if (one.p_change > 0 && one.p_change < one.h_change)
-            remedy = "the reference's error falls with h, not with the degree; refine Study/h, or, "
-                     "if sides of the mesh stand for curves, set Domain/sides = curved";
+            remedy = "the reference's error decreases with h, not with the degree; refine Study/h, "
+                     "or, if straight sides approximate curves, set Domain/sides = curved";
         }
       if (trend.values.back() < 10 * estimate)
       {
@@ -313,7 +313,7 @@ namespace plumbline::study
                                         : "half the unknowns, 3/4 of the entries"});
       else if (!scene.has_dilatation())
         results.omissions.push_back(
-            {"the dilatation", "lambda = mu: the bonds are all",
+            {"the dilatation", "lambda = mu: only the bonds remain",
              "one unknown a node, a family pass, and half the width of the collar"});
       else if (scene.domain.mesh.is_lattice())
         results.omissions.push_back(

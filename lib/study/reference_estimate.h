@@ -16,11 +16,11 @@ namespace plumbline::study
   /// Whether a scene wants the error of a method's solutions, besides the reference, estimated.
   bool is_estimated(const scene::Scene &scene, const Method &method);
 
-  /// An estimate with the case and the place that it is of.
+  /// The estimate with its case, series and level.
   ErrorEstimate placed(ErrorEstimate estimate, const Place &place, const std::string &problem);
 
-  /// Of estimates at points, which are changes that may pass through zero: no less than twice their
-  /// root mean square, and what is not from changes.
+  /// Raises estimates at points to at least twice their root mean square, since changes may pass
+  /// through zero, and adds the errors that changes do not show.
   void raise_to_mean(std::vector<double> &estimates, double more);
 
   /// By how much an error falls as h is halved, as far as two changes show: `now` to h/2, `before`

@@ -20,7 +20,8 @@ namespace plumbline::study
     /// Where solutions are wanted, in the problem's coordinates; empty: nowhere.
     std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> points = {};
     std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> points_in_space = {};
-    /// Takes them for every solution, with estimates of the error for Galerkin methods.
+    /// Receives the values there for every solution, with estimates of the error for Galerkin
+    /// methods.
     std::function<void(const ValuesAtPoints &, const Record &)> on_values = {};
     /// Records have the field that the decisive error is about: nodal values, or averages over the
     /// comparison cells.

@@ -157,7 +157,8 @@ namespace plumbline::study
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
-    /// At points, by the change to h/2, but no less than twice the root mean square of these.
+    /// Estimated errors at points, from the change to h/2, each raised to at least twice the root
+    /// mean square of the estimates at all points.
     /// @param contraction  of changes as h is halved
     std::vector<double> estimate_at(const std::vector<dealii::Point<3>> &points,
                                     const ProblemInSpace &problem, const SolutionInSpace &solution,

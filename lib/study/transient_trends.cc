@@ -231,7 +231,7 @@ namespace plumbline::study
                     "all but one family of bonds");
       }
       if (scene.material.model->is_state_based() && !scene.has_dilatation())
-        leave_out("the dilatation", "lambda = mu: the bonds are all",
+        leave_out("the dilatation", "lambda = mu: only the bonds remain",
                   "half the reach of the stencil");
       if (scene.is_steady())
         leave_out("loads and constraint in time", "neither has t in it", "one set instead of 17");

@@ -127,8 +127,9 @@ namespace plumbline::reference
       return result;
     }
 
-    /// The rule on cell ∩ shell: the cell's corner next to the origin sees all of its part in the
-    /// outer ball, and each ray from there leaves the inner one once.
+    /// Quadrature on cell ∩ shell along rays from the cell's corner nearest to the origin: cell ∩
+    /// outer ball is star-shaped about this corner, and each ray leaves the inner ball at most
+    /// once.
     class Cones
     {
     public:

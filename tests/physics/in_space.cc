@@ -127,8 +127,8 @@ namespace
 
 TEST(DilatationInSpace, of_1_over_r_has_a_closed_form)
 {
-  // C = ∇∇Ψ, Ψ = φ ⋆ φ, φ = 3 (1 - r) / π for δ = 1. The marginal of φ along a line, on which it
-  // depends as P(s) = (1 - |s|)² (1 + 2 |s|), gives Ψ = -(P ⋆ P)' / (2π w):
+  // C = ∇∇Ψ, Ψ = φ ⋆ φ, φ = 3 (1 - r) / π for δ = 1. The integral of φ over a plane at the
+  // distance |s| from the origin, P(s) = (1 - |s|)² (1 + 2 |s|), gives Ψ = -(P ⋆ P)' / (2π w):
   // π Ψ = 6/5 - 2 w² + 3/4 w³ + 3/5 w⁴ - 3/10 w⁵ for w < 1
   const auto influence = influence_function<3>({{1, -1}}, 1);
   const DilatationInSpace kernel(influence);

@@ -69,7 +69,7 @@ namespace plumbline::scene
     /// @throws InputError  the model is of the plane
     virtual physics::Kernel<3> kernel_in_space(const Scene &scene, double horizon) const;
 
-    /// What its dilatation adds in space; empty: bonds are all.
+    /// What its dilatation adds in space; empty: bonds only.
     virtual std::optional<physics::Dilatation<3>> dilatation_in_space(const Scene &,
                                                                       double /*horizon*/) const
     {

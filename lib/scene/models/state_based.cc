@@ -129,8 +129,10 @@ namespace plumbline::scene
         keys.add("lambda", given[1][0],
                  "Lame's first constant (in plane stress that of the plane), instead of E and nu. "
                  "[force/length^2]");
-        keys.add("mu", given[1][1],
-                 "The shear modulus > 0, given with lambda, which is > -mu. [force/length^2]");
+        keys.add(
+            "mu", given[1][1],
+            "The shear modulus > 0, given with lambda > -mu (> -2 mu / 3 in three dimensions). "
+            "[force/length^2]");
         keys.add(
             "surface terms", base::word(material.surface_terms),
             one_of({"automatic", "published", "none", "consistent"}),

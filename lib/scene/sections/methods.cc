@@ -43,7 +43,7 @@ namespace plumbline::scene
   {
     if (names.empty())
       throw InputError(
-          "Methods/names is empty; name methods ('plumbline list methods'), or all; for a "
-          "reference alone, name its method");
+          "Methods/names is empty; give names of methods ('plumbline list methods') or all; to run "
+          "the reference only, give its method");
   }
 } // namespace plumbline::scene

@@ -91,7 +91,7 @@ namespace plumbline::scene
         "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti).");
     keys.add(
         "points", points, any_text(),
-        "CSV file with columns x and y, in three dimensions also z: points in the domain, where "
+        "CSV file with columns x and y (and z in three dimensions): points in the domain at which "
         "'run' writes each static "
         "solution, its error, its change from the level before and, for Galerkin methods, an "
         "estimate of its error (points/*.csv; none with Reference/estimate = none). Relative to "

@@ -27,12 +27,13 @@ namespace plumbline::scene
     keys.add("density", density, any_number(),
              "rho > 0. [mass/length^3], with moduli in [force/length^2]");
     keys.add("damping", damping, any_number(), "eta >= 0. [1/time]");
-    keys.add("initial displacement", initial_displacement,
-             "u at t = 0, expressions in x, y, in three dimensions z, delta and h (the mesh size). "
-             "Empty: from "
-             "Problem/solution.");
+    keys.add(
+        "initial displacement", initial_displacement,
+        "u at t = 0, expressions in x, y (and z in three dimensions), delta and h (the mesh size). "
+        "Empty: from "
+        "Problem/solution.");
     keys.add("initial velocity", initial_velocity,
-             "u' at t = 0, expressions in the same. Empty: from Problem/solution, or 0.");
+             "u' at t = 0, expressions in the same variables. Empty: from Problem/solution, or 0.");
     keys.add("show blow-up", shows_blow_up, yes_or_no(),
              "Permit steps of explicit schemes that exceed the critical time step, to show the "
              "instability; otherwise they are refused.");
@@ -55,7 +56,7 @@ namespace plumbline::scene
     require(final_time >= 0 && std::isfinite(final_time), "final time", final_time,
             "must be positive and finite; give a time > 0, or 0 for statics");
     require(density > 0 && std::isfinite(density), "density", density,
-            "must be positive and finite; give the mass per unit area or volume");
+            "must be positive and finite; give the mass per unit volume");
     require(damping >= 0 && std::isfinite(damping), "damping", damping,
             "must not be negative, which would add energy; give a rate >= 0");
     for (const double step : steps)
