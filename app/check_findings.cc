@@ -88,7 +88,7 @@ namespace plumbline::app
     class WeightsOfAFile : public method::Method
     {
     public:
-      explicit WeightsOfAFile(const FamilySource &families) : families_(families) {}
+      explicit WeightsOfAFile(const FamilySource<2> &families) : families_(families) {}
       std::string name() const override { return "given weights"; }
       method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return "weights of a file"; }
@@ -102,7 +102,7 @@ namespace plumbline::app
       }
 
     private:
-      const FamilySource &families_;
+      const FamilySource<2> &families_;
     };
 
     study::Record record_of(const method::Method &method, const std::string &problem,
@@ -134,7 +134,7 @@ namespace plumbline::app
     }
 
     CaseCheck check_case(const scene::Scene &scene, const scene::Case &one, const std::string &name,
-                         const ChosenLevel &chosen, const FamilySource &families)
+                         const ChosenLevel &chosen, const FamilySource<2> &families)
     {
       const problem::Problem<2> &problem = one.problem;
       const WeightsOfAFile given(families);
@@ -186,7 +186,7 @@ namespace plumbline::app
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
     check_places(weights.nodes, mesh, found.level.text());
     GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
-    weights.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
+    weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
     found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
     const auto case_of = [&, of_nodes = weights.cells](unsigned int c)
     {
@@ -206,7 +206,7 @@ namespace plumbline::app
         find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
                      scene.methods.names);
     found.notes = all_notes(found, options);
-    const FamilySource source = [&](std::size_t i, Family<2> &family)
+    const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)

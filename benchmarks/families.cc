@@ -82,7 +82,7 @@ namespace plumbline::benchmarks
                                  kernel.horizon() + (1 + perturbation) * h, false);
       const auto cells =
           geometry::voronoi_cells(geometry::lattice_nodes(mesh, h, perturbation, 1), mesh);
-      const meshfree::Families families(rule.in_plane(kernel), kernel, cells, Backend::fast);
+      const meshfree::Families<2> families(rule.in_plane(kernel), kernel, cells, Backend::fast);
       meshfree::Family<2> family;
       std::size_t n_bonds = 0;
       // one iteration is all families: the same nodes whatever the number of iterations

@@ -53,7 +53,7 @@ namespace
   struct BondContext
   {
     meshfree::GivenNodes nodes;
-    geometry::NodeCells cells;
+    geometry::NodeCells<2> cells;
   };
 
   BondContext make_context(const std::string &scenes)

@@ -258,11 +258,11 @@ namespace plumbline::benchmarks
     GuardKernel solid_rows()
     {
       constexpr double h = 1. / 8, horizon = 3 * h;
-      const auto cells = std::make_shared<const geometry::NodeCells>(geometry::vertex_squares(
+      const auto cells = std::make_shared<const geometry::NodeCells<2>>(geometry::vertex_squares(
           geometry::Lattice({{{Point<2>(0, 0), Point<2>(1, 1)}}, {}}, h), 2 * horizon));
       const auto influence = physics::influence_function<2>({{1, -1}}, horizon);
       const auto kernel = physics::deviatoric_kernel(influence, 1);
-      const auto families = std::make_shared<const meshfree::Families>(
+      const auto families = std::make_shared<const meshfree::Families<2>>(
           meshfree::optimisation_based(kernel), kernel, *cells, Backend::fast);
       const auto material = [](const Point<2> &x) { return physics::Lame{3 + x[0], 1 + x[1]}; };
       const meshfree::StateBasedBody body{cells.get(), {influence, material, true, false}};

@@ -102,8 +102,8 @@ namespace
         geometry::vertex_squares(geometry::Lattice({{{{0, 0}, {1, 1}}}, {}}, h), 2 * horizon);
     const auto influence = physics::influence_function<2>({{1, -1}}, horizon);
     const auto kernel = physics::deviatoric_kernel(influence, 1);
-    const meshfree::Families families(meshfree::optimisation_based(kernel), kernel, cells,
-                                      geometry::Backend::fast);
+    const meshfree::Families<2> families(meshfree::optimisation_based(kernel), kernel, cells,
+                                         geometry::Backend::fast);
     const auto source = [&](std::size_t node, meshfree::Family<2> &family)
     { families.make(node, family); };
     const meshfree::StateBasedBody body{&cells,

@@ -17,6 +17,11 @@ namespace plumbline::meshfree
   std::unique_ptr<method::BoxDiscretisation> discretise_on_box(const Rule &rule,
                                                                const problem::Problem<3> &problem);
 
+  /// On scattered nodes in space: a sparse matrix.
+  /// @pre problem.cells, no dilatation
+  std::unique_ptr<method::DiscretisationInSpace>
+  discretise_on_nodes(const Rule &rule, const problem::Problem<3> &problem);
+
   /// On a lattice with one axis: motions of double wells.
   /// @pre is_axis_rule(rule.name)
   std::unique_ptr<method::Discretisation> discretise_on_line(const Rule &rule,

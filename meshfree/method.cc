@@ -66,10 +66,11 @@ namespace plumbline::meshfree
                                  : discretise_on_scattered_nodes(rule_, problem, communicator);
       }
 
-      std::unique_ptr<method::BoxDiscretisation>
+      std::unique_ptr<method::DiscretisationInSpace>
       discretise_in_space(const problem::Problem<3> &problem) const override
       {
-        return discretise_on_box(rule_, problem);
+        return problem.cells ? discretise_on_nodes(rule_, problem)
+                             : discretise_on_box(rule_, problem);
       }
 
       const method::DynamicFractureSolver *dynamic_fracture_solver() const override { return this; }

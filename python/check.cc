@@ -88,7 +88,7 @@ namespace plumbline::python
       found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};
       found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
       meshfree::GivenWeights weights;
-      weights.cells = std::make_shared<const geometry::NodeCells>(std::move(cells.cells));
+      weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
       weights.given = meshfree::families_of_rows(rows, nodes, *weights.cells, {"bonds", "index"});
       weights.given.weight_rounding = rounding;
       for (const std::size_t k : weights.cells->source)

@@ -300,7 +300,7 @@ namespace plumbline::python
     {
       if (const geometry::Lattice *lattice = problem.lattice())
         return method::free_points(*lattice, method::comparison_nodes(problem, 1));
-      const geometry::NodeCells &cells = *problem.cells();
+      const geometry::NodeCells<2> &cells = *problem.cells();
       return {cells.centroid.begin(),
               cells.centroid.begin() + static_cast<std::ptrdiff_t>(cells.n_free)};
     }

@@ -146,43 +146,13 @@ namespace plumbline::python
       const geometry::Domain domain = to_domain(boxes, exclude);
       const meshfree::Rule found = to_rule(rule);
       const std::vector<Point<2>> places = to_points(nodes, "nodes");
-      std::vector<double> own;
-      if (!volumes.is_none())
-      {
-        const auto array = volumes.cast<Doubles>();
-        require_length(array, places.size(), "volumes", "node");
-        own.assign(array.data(), array.data() + array.size());
-      }
-      std::vector<std::int64_t> from, to;
-      std::vector<double> weights, areas;
-      std::vector<Point<2>> xi, points;
-      {
-        const py::gil_scoped_release others;
-        geometry::NodeCells cells = geometry::voronoi_cells(
-            places, geometry::lattice_mesh(domain, h, kernel.horizon(), false));
-        if (!own.empty())
-          for (std::size_t k = 0; k < cells.size(); ++k)
-            cells.area[k] = own[cells.source[k]];
-        const meshfree::Families families(found.in_plane(kernel), kernel, cells,
-                                          geometry::Backend::fast);
-        Family<2> family;
-        for (std::size_t k = 0; k < families.size(); ++k)
-        {
-          families.make(k, family);
-          for (std::size_t b = 0; b < family.bonds.size(); ++b)
-          {
-            from.push_back(static_cast<std::int64_t>(cells.source[k]));
-            to.push_back(static_cast<std::int64_t>(cells.source[family.neighbours[b]]));
-            weights.push_back(family.bonds[b].weight);
-            areas.push_back(family.bonds[b].area);
-            xi.push_back(family.bonds[b].xi);
-            points.push_back(family.bonds[b].kernel_point);
-          }
-        }
-      }
-      return py::dict("i"_a = to_array(std::move(from)), "j"_a = to_array(std::move(to)),
-                      "w"_a = to_array(std::move(weights)), "points"_a = to_array(points),
-                      "xi"_a = to_array(xi), "area"_a = to_array(std::move(areas)));
+      const std::vector<double> own = to_volumes(volumes, places.size());
+      return weights_on<2>(found.in_plane(kernel), kernel, own,
+                        [&]
+                        {
+                          return geometry::voronoi_cells(
+                              places, geometry::lattice_mesh(domain, h, kernel.horizon(), false));
+                        });
     }
 
     py::list all_methods_as_dicts()
@@ -194,6 +164,56 @@ namespace plumbline::python
       return result;
     }
   } // namespace
+
+  std::vector<double> to_volumes(const py::object &given, std::size_t n_nodes)
+  {
+    if (given.is_none())
+      return {};
+    const auto array = given.cast<Doubles>();
+    require_length(array, n_nodes, "volumes", "node");
+    return {array.data(), array.data() + array.size()};
+  }
+
+  template <int dim>
+  py::dict weights_on(const meshfree::NeighbourhoodQuadrature<dim> &rule, const Kernel<dim> &kernel,
+                      const std::vector<double> &volumes,
+                      const std::function<geometry::NodeCells<dim>()> &make_cells)
+  {
+    std::vector<std::int64_t> from, to;
+    std::vector<double> weights, areas;
+    std::vector<Point<dim>> xi, points;
+    {
+      const py::gil_scoped_release others;
+      geometry::NodeCells<dim> cells = make_cells();
+      for (std::size_t k = 0; k < cells.size() && !volumes.empty(); ++k)
+        cells.area[k] = volumes[cells.source[k]];
+      const meshfree::Families<dim> families(rule, kernel, cells, geometry::Backend::fast);
+      Family<dim> family;
+      for (std::size_t k = 0; k < families.size(); ++k)
+      {
+        families.make(k, family);
+        for (std::size_t b = 0; b < family.bonds.size(); ++b)
+        {
+          from.push_back(static_cast<std::int64_t>(cells.source[k]));
+          to.push_back(static_cast<std::int64_t>(cells.source[family.neighbours[b]]));
+          weights.push_back(family.bonds[b].weight);
+          areas.push_back(family.bonds[b].area);
+          xi.push_back(family.bonds[b].xi);
+          points.push_back(family.bonds[b].kernel_point);
+        }
+      }
+    }
+    return py::dict("i"_a = to_array(std::move(from)), "j"_a = to_array(std::move(to)),
+                    "w"_a = to_array(std::move(weights)), "points"_a = to_array(points),
+                    "xi"_a = to_array(xi), "area"_a = to_array(std::move(areas)));
+  }
+
+  template py::dict weights_on(const meshfree::NeighbourhoodQuadrature<2> &, const Kernel<2> &,
+                               const std::vector<double> &,
+                               const std::function<geometry::NodeCells<2>()> &);
+  template py::dict weights_on(const meshfree::NeighbourhoodQuadrature<3> &, const Kernel<3> &,
+                               const std::vector<double> &,
+                               const std::function<geometry::NodeCells<3>()> &);
 
   meshfree::Rule PythonRule::rule() const
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "callables.h"
+#include "geometry/node_cells.h"
 #include "meshfree/rules/rules.h"
 #include "method/method.h"
 
@@ -19,6 +20,16 @@ namespace plumbline::python
   /// @param given  a name of the library's rules, or a rule of Python
   /// @throws InputError  unknown name; the message lists the known ones
   meshfree::Rule to_rule(const py::object &given);
+
+  /// Of the cells of nodes; empty where they are None.
+  std::vector<double> to_volumes(const py::object &given, std::size_t n_nodes);
+
+  /// The bonds of the free nodes by a rule, as arrays.
+  /// @param volumes  areas of cells in the order nodes were given; empty: those that cells have
+  template <int dim>
+  py::dict weights_on(const meshfree::NeighbourhoodQuadrature<dim> &rule,
+                      const physics::Kernel<dim> &kernel, const std::vector<double> &volumes,
+                      const std::function<geometry::NodeCells<dim>()> &make_cells);
 
   /// @param given  a name of the library's methods, or a rule of Python
   /// @throws InputError  unknown name; the message lists the known ones

@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "callables.h"
+#include "geometry/node_cells_in_space.h"
 #include "meshfree/check/bond_values.h"
 #include "method/method.h"
 #include "problem/in_space.h"
@@ -87,10 +88,17 @@ namespace plumbline::python
       return problem;
     }
 
+    geometry::NodeCells<3> cells_of(const std::vector<Point<3>> &nodes,
+                                    const geometry::CubeLattice &lattice, double horizon)
+    {
+      return geometry::voronoi_cells(nodes, lattice,
+                                     geometry::layers_around(nodes, lattice, horizon));
+    }
+
     std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &lame,
                                                const py::object &box, const py::object &exclude,
-                                               double h, const py::object &load,
-                                               const py::object &constraint,
+                                               double h, const py::object &nodes,
+                                               const py::object &load, const py::object &constraint,
                                                const py::object &solution)
     {
       const GivenField given_load("load", load), given_constraint("constraint", constraint),
@@ -98,7 +106,16 @@ namespace plumbline::python
       const geometry::CubeLattice lattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")},
                                           h);
       ProblemInSpace problem = problem_of(lattice, kernel, lame);
+      if (!nodes.is_none() && problem.dilatation)
+        throw InputError("nodes with lame: scattered nodes in space have bonds only; leave out one "
+                         "of them, or give lambda = mu");
+      std::vector<Point<3>> places;
+      if (!nodes.is_none())
+        places = to_points<3>(nodes.cast<Doubles>(), "nodes");
       const py::gil_scoped_release others;
+      if (!nodes.is_none())
+        problem.cells = std::make_shared<const geometry::NodeCells<3>>(
+            cells_of(places, lattice, kernel.horizon()));
       const auto field = [&](const GivenField &one)
       { return one.field_in_space(problem.n_components, kernel.horizon()); };
       problem.load = field(given_load);
@@ -106,6 +123,21 @@ namespace plumbline::python
       if (given_solution.is_there())
         problem.solution = field(given_solution);
       return std::make_shared<const ProblemInSpace>(problem::complete(std::move(problem)));
+    }
+
+    /// @param volumes  those of Voronoi cells where it is None
+    py::dict node_weights(const std::string &rule, const Kernel<3> &kernel, const Doubles &nodes,
+                          const py::object &volumes, const py::object &box,
+                          const py::object &exclude, double h)
+    {
+      const geometry::CubeLattice lattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")},
+                                          h);
+      const meshfree::Rule found = to_rule(py::str(rule));
+      if (!found.in_space)
+        throw InputError("rule '" + rule + "' is for the plane; choose another");
+      const std::vector<Point<3>> places = to_points<3>(nodes, "nodes");
+      return weights_on<3>(found.in_space(kernel), kernel, to_volumes(volumes, places.size()),
+                           [&] { return cells_of(places, lattice, kernel.horizon()); });
     }
 
     SolvedInSpace solve(std::shared_ptr<const ProblemInSpace> of, const std::string &name)
@@ -220,12 +252,15 @@ namespace plumbline::python
         module, "SpaceProblem",
         R"doc(One boundary-value problem on boxes of cubes: L u = load in them, u = constraint around them.
 
-Problem(kernel, *, box, h, exclude=None, load=None, constraint=None, solution=None, lame=None)
+Problem(kernel, *, box, h, nodes=None, exclude=None, load=None, constraint=None, solution=None,
+        lame=None)
 
 kernel      of the bonds; with lame, the influence function (only its profile and horizon are used)
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
+nodes       scattered nodes of meshfree rules, shape (n, 3) [length], in the boxes (free) and within a horizon
+            around them, with Voronoi cells; default: the centres of the cubes
 load, constraint, solution
             each an expression in x, y and z ("sin(3*x)*z"; three components separated by commas), a
             number, or a function f(x, y, z) of arrays, which is called point by point and slower.
@@ -234,13 +269,14 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
             horizons of the boxes (one if lambda = mu))doc")
         .def(py::init(
                  [](const Kernel<3> &kernel, const py::object &box, double h,
-                    const py::object &exclude, const py::object &load, const py::object &constraint,
+                    const py::object &nodes, const py::object &exclude, const py::object &load, const py::object &constraint,
                     const py::object &solution, const py::object &lame)
                  {
                    return std::const_pointer_cast<ProblemInSpace>(
-                       pose(kernel, lame, box, exclude, h, load, constraint, solution));
+                       pose(kernel, lame, box, exclude, h, nodes, load, constraint, solution));
                  }),
-             "kernel"_a, py::kw_only(), "box"_a, "h"_a, "exclude"_a = py::none(),
+             "kernel"_a, py::kw_only(), "box"_a, "h"_a, "nodes"_a = py::none(),
+             "exclude"_a = py::none(),
              "load"_a = py::none(), "constraint"_a = py::none(), "solution"_a = py::none(),
              "lame"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
@@ -281,6 +317,8 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
         [](std::shared_ptr<ProblemInSpace> problem, const std::string &method)
         { return solve(std::move(problem), method); },
         "problem"_a, "method"_a);
+    module.def("node_weights_in_space", node_weights, "rule"_a, "kernel"_a, "nodes"_a, "volumes"_a,
+               "box"_a, "exclude"_a, "h"_a);
     module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
                "box"_a, "points"_a, "meant"_a, "bonds_are"_a);
   }

@@ -93,7 +93,7 @@ namespace plumbline::reference
                                   problem.settings.quadrature.exact_entries && !by_quadrature_,
                                   communicator);
       }
-      std::unique_ptr<method::BoxDiscretisation>
+      std::unique_ptr<method::DiscretisationInSpace>
       discretise_in_space(const problem::Problem<3> &problem) const override
       {
         return discretise_on_box(problem, AxisShapes(is_continuous_, degree_));

@@ -35,6 +35,6 @@ namespace plumbline::geometry
   private:
     std::vector<Polygon> polygons_;
     std::vector<bool> is_inside_;
-    BoxSearch search_;
+    BoxSearch<2> search_;
   };
 } // namespace plumbline::geometry

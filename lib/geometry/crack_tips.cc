@@ -46,7 +46,7 @@ namespace plumbline::geometry
     std::vector<Box> boxes;
     for (const Point<2> &x : nodes)
       boxes.push_back({x, x});
-    const BoxSearch search(boxes);
+    const BoxSearch<2> search(boxes);
     std::vector<TipOnBonds> result;
     std::vector<unsigned int> near;
     for (std::size_t c = 0; c < cracks.size(); ++c)

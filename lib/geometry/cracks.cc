@@ -16,7 +16,7 @@ namespace plumbline::geometry
       return x.distance(first + std::clamp((x - first) * d / d.norm_square(), 0., 1.) * d);
     }
 
-    std::string name(const NodeCells &cells, std::size_t node)
+    std::string name(const NodeCells<2> &cells, std::size_t node)
     {
       std::ostringstream text;
       text << "node " << cells.source[node] << " at (" << cells.nodes[node] << ')';
@@ -24,7 +24,7 @@ namespace plumbline::geometry
     }
   } // namespace
 
-  void check_cracks(const std::vector<Polyline> &cracks, const NodeCells &cells,
+  void check_cracks(const std::vector<Polyline> &cracks, const NodeCells<2> &cells,
                     const std::vector<char> &is_ghost, double horizon)
   {
     const double tolerance = on_crack * horizon;
@@ -39,7 +39,7 @@ namespace plumbline::geometry
     std::vector<Box> boxes;
     for (const Point<2> &x : nodes)
       boxes.push_back({x, x});
-    const BoxSearch search(boxes);
+    const BoxSearch<2> search(boxes);
     std::vector<unsigned int> near;
     for (std::size_t c = 0; c < cracks.size(); ++c)
     {
@@ -73,7 +73,7 @@ namespace plumbline::geometry
     }
   }
 
-  void check_ghosts(const std::vector<char> &is_ghost, const NodeCells &cells)
+  void check_ghosts(const std::vector<char> &is_ghost, const NodeCells<2> &cells)
   {
     for (std::size_t i = 0; i < std::min(is_ghost.size(), cells.n_free); ++i)
       if (is_ghost[i] != 0)

@@ -14,10 +14,10 @@ namespace plumbline::geometry
   /// @param is_ghost  of each node, empty: none; those need not be known
   /// @throws InputError  a node on a crack, naming it by the index it was given with; a crack
   /// without length
-  void check_cracks(const std::vector<Polyline> &cracks, const NodeCells &cells,
+  void check_cracks(const std::vector<Polyline> &cracks, const NodeCells<2> &cells,
                     const std::vector<char> &is_ghost, double horizon);
 
   /// Ghosts, nodes beyond a free surface that only complete the balls of others, lie in the collar.
   /// @throws InputError  one in Ω, naming it
-  void check_ghosts(const std::vector<char> &is_ghost, const NodeCells &cells);
+  void check_ghosts(const std::vector<char> &is_ghost, const NodeCells<2> &cells);
 } // namespace plumbline::geometry

@@ -142,7 +142,7 @@ namespace plumbline::geometry
       std::vector<Box> boxes;
       for (const Side &side : single)
         boxes.push_back(bounding_box(view(segment(side))));
-      const BoxSearch search(boxes);
+      const BoxSearch<2> search(boxes);
       std::vector<unsigned int> found;
       for (const Side &side : single)
       {
@@ -178,7 +178,7 @@ namespace plumbline::geometry
         cells.push_back(mesh.polygon(c));
         boxes.push_back(bounding_box(view(cells[c])));
       }
-      const BoxSearch search(boxes);
+      const BoxSearch<2> search(boxes);
       std::vector<unsigned int> found;
       for (std::size_t c = 0; c < cells.size(); ++c)
       {

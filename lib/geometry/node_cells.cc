@@ -84,7 +84,7 @@ namespace plumbline::geometry
     }
 
     /// Adds the cells of nodes[first ... last - 1], all of Ω or all of the collar.
-    void add_cells(NodeCells &result, std::size_t first, std::size_t last,
+    void add_cells(NodeCells<2> &result, std::size_t first, std::size_t last,
                    const CellLocator &mesh_cells, const Polygon &frame)
     {
       const bool is_inside = first < result.n_free;
@@ -118,7 +118,8 @@ namespace plumbline::geometry
     }
   } // namespace
 
-  Box NodeCells::bounding_box(std::size_t cell) const
+  template <>
+  Box NodeCells<2>::bounding_box(std::size_t cell) const
   {
     Polygon vertices;
     for (std::size_t piece = first_piece[cell]; piece < first_piece[cell + 1]; ++piece)
@@ -126,22 +127,23 @@ namespace plumbline::geometry
     return geometry::bounding_box(view(vertices));
   }
 
-  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
-                                                       const Mesh &mesh)
+  template <int dim>
+  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<dim>> &nodes,
+                                                       double size)
   {
-    double whole = 0;
-    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-      whole += area(view(mesh.polygon(cell)));
-    const double size = std::sqrt(whole / static_cast<double>(nodes.size()));
     std::vector<std::size_t> order(nodes.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](std::size_t i) { return std::make_tuple(nodes[i][0], nodes[i][1], i); };
+    const auto key = [&](std::size_t i)
+    {
+      const Point<dim> &x = nodes[i];
+      return std::make_tuple(x[0], x[1], x[dim - 1], i);
+    };
     std::sort(order.begin(), order.end(),
               [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
     for (std::size_t a = 0; a < order.size(); ++a)
       for (std::size_t b = a + 1; b < order.size(); ++b)
       {
-        const Point<2> &x = nodes[order[a]], &y = nodes[order[b]];
+        const Point<dim> &x = nodes[order[a]], &y = nodes[order[b]];
         if (!(y[0] - x[0] < too_near * size))
           break;
         if (x.distance(y) < too_near * size)
@@ -151,6 +153,20 @@ namespace plumbline::geometry
         }
       }
     return {};
+  }
+
+  template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &,
+                                                                double);
+  template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<3>> &,
+                                                                double);
+
+  std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
+                                                       const Mesh &mesh)
+  {
+    double whole = 0;
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      whole += area(view(mesh.polygon(cell)));
+    return find_coincident_nodes(nodes, std::sqrt(whole / static_cast<double>(nodes.size())));
   }
 
   std::string CoincidentNodes::place(const std::string &name) const
@@ -163,10 +179,10 @@ namespace plumbline::geometry
     return text.str();
   }
 
-  NodeCells voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh)
+  NodeCells<2> voronoi_cells(const std::vector<Point<2>> &nodes, const Mesh &mesh)
   {
     const CellLocator mesh_cells(mesh);
-    NodeCells result;
+    NodeCells<2> result;
     std::vector<std::size_t> in_collar;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!std::isfinite(nodes[i][0]) || !std::isfinite(nodes[i][1]))

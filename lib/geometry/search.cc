@@ -6,82 +6,118 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <string>
+#include <type_traits>
 
 namespace plumbline::geometry
 {
   namespace
   {
-    double longer_side(const Box &box)
+    template <class Box>
+    constexpr unsigned int n_axes = std::is_same_v<Box, Cuboid> ? 3 : 2;
+
+    template <class Box>
+    double longest_side(const Box &box)
     {
-      return std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+      double side = 0;
+      for (unsigned int d = 0; d < n_axes<Box>; ++d)
+        side = std::max(side, box.upper[d] - box.lower[d]);
+      return side;
     }
 
+    template <class Box>
     bool overlap(const Box &a, const Box &b) // without branches, which would be hard to predict
     {
-      return (a.lower[0] <= b.upper[0]) & (b.lower[0] <= a.upper[0]) & (a.lower[1] <= b.upper[1]) &
-             (b.lower[1] <= a.upper[1]);
+      bool result = true;
+      for (unsigned int d = 0; d < n_axes<Box>; ++d)
+        result &= (a.lower[d] <= b.upper[d]) & (b.lower[d] <= a.upper[d]);
+      return result;
     }
 
+    template <class Box>
     void check(const std::vector<Box> &boxes)
     {
       for (std::size_t i = 0; i < boxes.size(); ++i)
       {
         const auto &a = boxes[i].lower, &b = boxes[i].upper;
-        if (a[0] <= b[0] && a[1] <= b[1] && std::isfinite(b[0] - a[0]) &&
-            std::isfinite(b[1] - a[1]))
+        bool is_right = true;
+        for (unsigned int d = 0; d < n_axes<Box>; ++d)
+          is_right = is_right && a[d] <= b[d] && std::isfinite(b[d] - a[d]);
+        if (is_right)
           continue;
-        std::ostringstream message;
-        message << "box " << i << " from (" << a[0] << ", " << a[1] << ") to (" << b[0] << ", "
-                << b[1] << ") cannot be searched for; give finite corners, the lower one first";
-        throw InputError(message.str());
+        const auto words = [](const auto &x)
+        {
+          std::ostringstream text;
+          for (unsigned int d = 0; d < n_axes<Box>; ++d)
+            text << (d == 0 ? "(" : ", ") << x[d];
+          return text.str() + ")";
+        };
+        throw InputError("box " + std::to_string(i) + " from " + words(a) + " to " + words(b) +
+                         " cannot be searched for; give finite corners, the lower one first");
       }
     }
   } // namespace
 
-  double BoxSearch::Grid::bin(double x, int axis) const
+  template <int dim>
+  double BoxSearch<dim>::Grid::bin(double x, unsigned int axis) const
   {
     const double last = n_bins[axis];
     return std::max(-1., std::min(last, std::floor((x - origin[axis]) / bin_size)));
   }
 
-  BoxSearch::BoxSearch(std::vector<Box> boxes) : boxes_(std::move(boxes))
+  template <int dim>
+  BoxSearch<dim>::BoxSearch(std::vector<Box> boxes) : boxes_(std::move(boxes))
   {
     check(boxes_);
-    std::map<int, std::vector<unsigned int>> like_size; // by the power of two in the longer side
+    std::map<int, std::vector<unsigned int>> like_size; // by the power of two in the longest side
     for (std::size_t i = 0; i < boxes_.size(); ++i)
-      like_size[std::ilogb(longer_side(boxes_[i]))].push_back(i);
+      like_size[std::ilogb(longest_side(boxes_[i]))].push_back(i);
     for (const auto &[power, members] : like_size)
       grids_.push_back(make_grid(members));
   }
 
-  BoxSearch::Grid BoxSearch::make_grid(const std::vector<unsigned int> &members) const
+  template <int dim>
+  typename BoxSearch<dim>::Grid
+  BoxSearch<dim>::make_grid(const std::vector<unsigned int> &members) const
   {
-    Point<2> first = boxes_[members[0]].lower, last = first; // lower corners
+    Point<dim> first = boxes_[members[0]].lower, last = first; // lower corners
     double side = 0;
     for (unsigned int i : members)
     {
-      side = std::max(side, longer_side(boxes_[i]));
-      for (int k = 0; k < 2; ++k)
+      side = std::max(side, longest_side(boxes_[i]));
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        first[k] = std::min(first[k], boxes_[i].lower[k]);
-        last[k] = std::max(last[k], boxes_[i].lower[k]);
+        first[d] = std::min(first[d], boxes_[i].lower[d]);
+        last[d] = std::max(last[d], boxes_[i].lower[d]);
       }
     }
-    // then x and y of a box's two corners are at most one bin apart, in spite of rounding
+    // then coordinates of a box's two corners are at most one bin apart, in spite of rounding
     side *= 1 + 1e-6;
-    const double x = last[0] - first[0], y = last[1] - first[1], n = members.size();
-    const double bin_size = std::max({side, std::sqrt(x / n) * std::sqrt(y), (x + y) / n});
-    Grid grid{first, bin_size > 0 ? bin_size : 1, {}, {}, std::vector<Member>(members.size())};
-    grid.n_bins = {1 + static_cast<std::size_t>(x / grid.bin_size),
-                   1 + static_cast<std::size_t>(y / grid.bin_size)};
+    const double n = members.size();
+    double volume_side = 1, length = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      volume_side *= std::pow((last[d] - first[d]) / n, 1. / dim);
+      length += last[d] - first[d];
+    }
+    volume_side *= std::pow(n, (dim - 1.) / dim);
+    const double bin_size = std::max({side, volume_side, length / n});
+    Grid grid;
+    grid.origin = first;
+    grid.bin_size = bin_size > 0 ? bin_size : 1;
+    grid.members.resize(members.size());
+    for (unsigned int d = 0; d < dim; ++d)
+      grid.n_bins[d] = 1 + static_cast<std::size_t>((last[d] - first[d]) / grid.bin_size);
 
     const auto bin = [&](unsigned int i)
     {
-      const auto &p = boxes_[i].lower;
-      return static_cast<std::size_t>(grid.bin(p[1], 1)) * grid.n_bins[0] +
-             static_cast<std::size_t>(grid.bin(p[0], 0));
+      std::size_t number = 0;
+      for (unsigned int d = dim; d-- > 0;)
+        number =
+            number * grid.n_bins[d] + static_cast<std::size_t>(grid.bin(boxes_[i].lower[d], d));
+      return number;
     };
-    grid.start.assign(grid.n_bins[0] * grid.n_bins[1] + 1, 0);
+    grid.start.assign(grid.n_bins[0] * grid.n_bins[1] * grid.n_bins[2] + 1, 0);
     for (unsigned int i : members)
       ++grid.start[bin(i) + 1];
     for (std::size_t b = 1; b < grid.start.size(); ++b)
@@ -92,34 +128,39 @@ namespace plumbline::geometry
     return grid;
   }
 
-  void BoxSearch::find(const Box &box, std::vector<unsigned int> &found) const
+  template <int dim>
+  void BoxSearch<dim>::find(const Box &box, std::vector<unsigned int> &found) const
   {
     std::size_t n_found = 0;
     for (const Grid &grid : grids_)
     {
-      std::array<std::ptrdiff_t, 2> from, to;
-      for (int k = 0; k < 2; ++k)
+      std::array<std::ptrdiff_t, 3> from{}, to{};
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        from[k] = std::max(0., grid.bin(box.lower[k], k) - 1);
-        to[k] = std::min(grid.n_bins[k] - 1., grid.bin(box.upper[k], k));
+        from[d] = std::max(0., grid.bin(box.lower[d], d) - 1);
+        to[d] = std::min(grid.n_bins[d] - 1., grid.bin(box.upper[d], d));
       }
       if (from[0] > to[0])
         continue;
-      for (std::ptrdiff_t j = from[1]; j <= to[1]; ++j)
-      {
-        const std::size_t *row = grid.start.data() + j * grid.n_bins[0];
-        const std::size_t first = row[from[0]], end = row[to[0] + 1];
-        found.resize(n_found + (end - first));
-        for (std::size_t m = first; m < end; ++m)
+      for (std::ptrdiff_t k = from[2]; k <= to[2]; ++k)
+        for (std::ptrdiff_t j = from[1]; j <= to[1]; ++j)
         {
-          found[n_found] = grid.members[m].index;
-          n_found += overlap(grid.members[m].box, box);
+          const std::size_t *row = grid.start.data() + (k * grid.n_bins[1] + j) * grid.n_bins[0];
+          const std::size_t first = row[from[0]], end = row[to[0] + 1];
+          found.resize(n_found + (end - first));
+          for (std::size_t m = first; m < end; ++m)
+          {
+            found[n_found] = grid.members[m].index;
+            n_found += overlap(grid.members[m].box, box);
+          }
         }
-      }
     }
     found.resize(n_found);
     std::sort(found.begin(), found.end());
   }
+
+  template class BoxSearch<2>;
+  template class BoxSearch<3>;
 
   Box bounding_box(ArrayView<const Point<2>> vertices)
   {

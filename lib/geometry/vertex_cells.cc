@@ -25,11 +25,12 @@ namespace plumbline::geometry
     constexpr double rounding = 1e-9;
 
     /// Nodes with the pieces of their cells, the free ones first.
-    NodeCells free_first(const std::vector<Point<2>> &nodes, const std::vector<std::size_t> &source,
-                         const std::function<bool(std::size_t)> &is_free,
-                         const std::function<std::vector<Polygon>(std::size_t)> &pieces)
+    NodeCells<2> free_first(const std::vector<Point<2>> &nodes,
+                            const std::vector<std::size_t> &source,
+                            const std::function<bool(std::size_t)> &is_free,
+                            const std::function<std::vector<Polygon>(std::size_t)> &pieces)
     {
-      NodeCells cells;
+      NodeCells<2> cells;
       std::vector<std::size_t> order(nodes.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       cells.n_free = static_cast<std::size_t>(
@@ -97,7 +98,7 @@ namespace plumbline::geometry
       }
 
       /// @throws InputError  boxes that hold all or nothing, or a box that holds nothing
-      void check(const NodeCells &cells) const
+      void check(const NodeCells<2> &cells) const
       {
         if (cells.n_free == 0)
           throw InputError(
@@ -182,12 +183,12 @@ namespace plumbline::geometry
              !constrained.hold(corners(box))});
         nodes.push_back(body.point(i, j));
       }
-    NodeCells cells = free_first(
+    NodeCells<2> cells = free_first(
         nodes, {}, [&](std::size_t c) { return mesh.cells[c].is_inside; },
         [&](std::size_t c) { return std::vector<Polygon>{mesh.polygon(c)}; });
     constrained.check(cells);
     return {{body.h(), body.origin(), {n[0] + 1, n[1] + 1}},
-            std::make_shared<const NodeCells>(std::move(cells)),
+            std::make_shared<const NodeCells<2>>(std::move(cells)),
             std::make_shared<const Mesh>(std::move(mesh))};
   }
 
@@ -231,14 +232,14 @@ namespace plumbline::geometry
         is_constrained = constrained.hold(part) || is_constrained;
       is_free.push_back(static_cast<char>(!is_constrained));
     }
-    NodeCells cells = free_first(
+    NodeCells<2> cells = free_first(
         nodes, source, [&](std::size_t c) { return is_free[c] != 0; },
         [&](std::size_t c) { return std::move(parts[source[c]]); });
     constrained.check(cells);
-    return {lattice, std::make_shared<const NodeCells>(std::move(cells)), std::move(mesh)};
+    return {lattice, std::make_shared<const NodeCells<2>>(std::move(cells)), std::move(mesh)};
   }
 
-  NodeCells vertex_squares(const Lattice &lattice, double reach)
+  NodeCells<2> vertex_squares(const Lattice &lattice, double reach)
   {
     const double h = lattice.h();
     const int margin = static_cast<int>(std::ceil(reach / h - 1e-9)) + 1;
@@ -252,7 +253,7 @@ namespace plumbline::geometry
             static_cast<char>(lattice.is_inside(i - 1, j - 1) && lattice.is_inside(i, j - 1) &&
                               lattice.is_inside(i - 1, j) && lattice.is_inside(i, j)));
       }
-    NodeCells cells = free_first(
+    NodeCells<2> cells = free_first(
         nodes, {}, [&](std::size_t c) { return is_free[c] != 0; },
         [&](std::size_t c) { return std::vector<Polygon>{square_about(nodes[c], h)}; });
     if (cells.n_free == 0)

@@ -27,8 +27,8 @@ namespace plumbline::geometry
   struct VertexCells
   {
     NodeLattice lattice;
-    std::shared_ptr<const NodeCells> cells; ///< `source`: the node's number in the lattice
-    std::shared_ptr<const Mesh> mesh;       ///< of the body; inside: free
+    std::shared_ptr<const NodeCells<2>> cells; ///< `source`: the node's number in the lattice
+    std::shared_ptr<const Mesh> mesh;          ///< of the body; inside: free
   };
 
   /// On the vertices of a lattice: a half on sides, a quarter at corners.
@@ -51,5 +51,5 @@ namespace plumbline::geometry
   /// inside Ω are free; those on its boundary are data.
   /// @param reach  of the collar [length]
   /// @throws InputError  no vertex inside Ω
-  NodeCells vertex_squares(const Lattice &lattice, double reach);
+  NodeCells<2> vertex_squares(const Lattice &lattice, double reach);
 } // namespace plumbline::geometry

@@ -356,9 +356,9 @@ namespace plumbline::method
     return result;
   }
 
-  algebra::WaveOperator BoxDiscretisation::waves() const
+  std::optional<algebra::WaveOperator> BoxDiscretisation::waves() const
   {
-    return {lattice_.h(), stencil_, mass_stencil(), n_components_, {{}}};
+    return algebra::WaveOperator{lattice_.h(), stencil_, mass_stencil(), n_components_, {{}}};
   }
 
   std::unique_ptr<algebra::LinearSystem> BoxDiscretisation::tangent() const

@@ -1,12 +1,6 @@
 #pragma once
 
-#include "algebra/linear_system.h"
-#include "algebra/symbol.h"
-#include "method/diagnostics.h"
-#include "method/equation_of_motion.h"
-#include "problem/in_space.h"
-
-#include <deal.II/lac/vector.h>
+#include "method/discretisation_in_space.h"
 
 #include <array>
 #include <functional>
@@ -16,17 +10,6 @@
 
 namespace plumbline::method
 {
-  /// A solution in space, the same view for both families of methods.
-  struct FieldInSpace
-  {
-    std::vector<dealii::Point<3>> nodes; ///< the method's own free nodes in Ω
-    std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
-    std::vector<double> averages;        ///< over the cells of Ω, shape (n_cells, n_components)
-    /// u in the closed domain Ω: trilinear for nodes at vertices; for nodes at centres the value of
-    /// a cell that contains x, of either cell on a face between two. Thread-safe.
-    std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
-  };
-
   /// Averages over the cells as VTK image data in 64-bit floating point. Cells of the bounding box
   /// outside of Ω are blanked (vtkGhostType) and have the value 0.
   /// @param averages  over the cells of Ω, shape (n_cells, n_components)
@@ -43,37 +26,21 @@ namespace plumbline::method
 
   /// A problem on a union of boxes in space, as both families of methods have it: one stencil for
   /// all nodes, the constraint on those that are not free. A state has the shape of the BoxNodes.
-  class BoxDiscretisation
+  class BoxDiscretisation : public DiscretisationInSpace
   {
   public:
-    using Vector = algebra::Vector;
-
     /// @throws NumericalError  no node is free
     BoxDiscretisation(const problem::Problem<3> &problem, NodePlace nodes,
                       algebra::Stencil stencil);
-    virtual ~BoxDiscretisation() = default;
 
-    std::size_t n_unknowns() const;
-
-    /// What one case brings: its load less what the constraint adds to the force.
-    struct Data
-    {
-      Vector load;
-      std::function<FieldInSpace(const Vector &u)> field;
-    };
-    Data data(const problem::Problem<3> &problem) const;
+    std::size_t n_unknowns() const override;
+    Data data(const problem::Problem<3> &problem) const override;
 
     /// @throws NumericalError  the stencil is not symmetric
-    std::unique_ptr<algebra::LinearSystem> tangent() const;
+    std::unique_ptr<algebra::LinearSystem> tangent() const override;
 
-    /// M ü = -A u on an unbounded lattice.
-    algebra::WaveOperator waves() const;
-
-    /// The semi-discrete equation of motion; it must not outlive this object.
-    /// @param is_lumped  Galerkin methods: masses by the scaled diagonal instead of the mass matrix
-    std::unique_ptr<MotionOf<3>> motion(bool is_lumped) const;
-
-    virtual Diagnostics diagnostics() const = 0;
+    std::optional<algebra::WaveOperator> waves() const override;
+    std::unique_ptr<MotionOf<3>> motion(bool is_lumped) const override;
 
   protected:
     const geometry::CubeLattice &lattice() const { return lattice_; }

@@ -145,6 +145,16 @@ namespace plumbline::method
     return proof;
   }
 
+  LimitProof limit_of(const problem::Problem<3> &problem, const LimitProof &of_families)
+  {
+    if (problem.settings.tends_to_local_limit)
+      return of_families;
+    LimitProof proof;
+    proof.ball_defect = of_families.ball_defect;
+    proof.area_defect = of_families.area_defect;
+    return proof;
+  }
+
   LimitProof prove_galerkin(const problem::Problem<2> &problem, const Diagnostics &diagnostics)
   {
     LimitProof proof;

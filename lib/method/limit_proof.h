@@ -29,6 +29,9 @@ namespace plumbline::method
   /// whole families are kept, for a method with them is not to be advised, but prove nothing.
   LimitProof limit_of(const problem::Problem<2> &problem, const LimitProof &of_families);
 
+  /// The same in space, where the material is homogeneous and nothing is broken.
+  LimitProof limit_of(const problem::Problem<3> &problem, const LimitProof &of_families);
+
   /// A conforming Galerkin method of degree 1 or more. Its space holds the continuous piecewise
   /// linear (on quadrilaterals bilinear) functions, which are dense in the local energy space
   /// whatever the horizon, so it is asymptotically compatible where the kernel is >= 0, does not

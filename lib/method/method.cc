@@ -1,6 +1,6 @@
 #include "method/method.h"
 
-#include "method/box_discretisation.h"
+#include "method/discretisation_in_space.h"
 #include "method/equation_of_motion.h"
 
 namespace plumbline::method
@@ -12,7 +12,8 @@ namespace plumbline::method
     return nullptr;
   }
 
-  std::unique_ptr<BoxDiscretisation> Method::discretise_in_space(const problem::Problem<3> &) const
+  std::unique_ptr<DiscretisationInSpace>
+  Method::discretise_in_space(const problem::Problem<3> &) const
   {
     return nullptr;
   }

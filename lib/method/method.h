@@ -11,7 +11,7 @@
 
 namespace plumbline::method
 {
-  class BoxDiscretisation;
+  class DiscretisationInSpace;
   class ContinuousMotion;
   class Discretisation;
   class DynamicFractureSolver;
@@ -29,6 +29,7 @@ namespace plumbline::method
     unsigned int n_components = 1;
     bool is_body = false;        ///< with a free boundary
     bool has_dilatation = false; ///< so that bonds are as long as two horizons
+    bool is_scattered = false;   ///< meshfree nodes in a box in space that are not its lattice's
 
     bool is_lattice() const { return extents[0] > 0; }
     double reach() const { return has_dilatation ? 2 * level.horizon : level.horizon; }
@@ -63,7 +64,7 @@ namespace plumbline::method
 
     /// The same on a box in space.
     /// @pre  can() has Capability::space
-    virtual std::unique_ptr<BoxDiscretisation>
+    virtual std::unique_ptr<DiscretisationInSpace>
     discretise_in_space(const problem::Problem<3> &problem) const;
 
     /// Null: the method moves no strips whose bonds soften, see dynamic_fracture_solver.h.

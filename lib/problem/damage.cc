@@ -2,7 +2,7 @@
 
 namespace plumbline::problem
 {
-  std::vector<char> find_ghosts(const Damage<2> &damage, const geometry::NodeCells &cells)
+  std::vector<char> find_ghosts(const Damage<2> &damage, const geometry::NodeCells<2> &cells)
   {
     std::vector<char> is_ghost;
     const auto outside = damage.outside; // one thread's own

@@ -6,5 +6,5 @@
 namespace plumbline::problem
 {
   /// Of each node whether it lies beyond a free surface; empty where there is none.
-  std::vector<char> find_ghosts(const Damage<2> &damage, const geometry::NodeCells &cells);
+  std::vector<char> find_ghosts(const Damage<2> &damage, const geometry::NodeCells<2> &cells);
 } // namespace plumbline::problem

@@ -26,7 +26,7 @@ namespace plumbline::problem
       nodes = geometry::centroids(mesh);
     MeshDomain result;
     result.cells =
-        std::make_shared<const geometry::NodeCells>(geometry::voronoi_cells(nodes, mesh));
+        std::make_shared<const geometry::NodeCells<2>>(geometry::voronoi_cells(nodes, mesh));
     result.mesh = std::make_shared<const geometry::Mesh>(std::move(mesh));
     result.reach = reach;
     return result;

@@ -21,7 +21,7 @@ namespace plumbline::problem
   struct MeshDomain
   {
     std::shared_ptr<const geometry::Mesh> mesh;
-    std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes
+    std::shared_ptr<const geometry::NodeCells<2>> cells; ///< of the nodes
     double reach = 0;      ///< the interaction domain is at least so wide [length]
     std::string name = {}; ///< of the mesh, for messages
     /// How fast the mesh tends to the domain that it stands for: a polygon's sides to its curve

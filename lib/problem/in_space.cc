@@ -129,6 +129,16 @@ namespace plumbline::problem
     }
   } // namespace
 
+  double Field<3>::operator()(const dealii::Point<3> &x, unsigned int component) const
+  {
+    if (!series)
+      return value(x, component);
+    physics::AxisFunctionals at;
+    for (unsigned int d = 0; d < 3; ++d)
+      at[d] = {{{x[d], 1}}};
+    return series->apply(component, at).front();
+  }
+
   std::vector<double> Field<3>::apply(unsigned int component,
                                       const physics::AxisFunctionals &functionals,
                                       const std::vector<char> &is_wanted) const

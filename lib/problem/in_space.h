@@ -1,11 +1,13 @@
 #pragma once
 
 #include "geometry/cube_lattice.h"
+#include "geometry/node_cells.h"
 #include "physics/chebyshev_in_space.h"
 #include "physics/kernel.h"
 #include "problem/problem.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,9 @@ namespace plumbline::problem
     std::optional<physics::ChebyshevInSpace> series = {}; ///< on the bounding box of Ω
     bool is_piecewise = false; ///< no series is looked for: no number of points shows where pieces
                                ///< end
+
+    /// In Ω: by the series where there is one, which is cheap.
+    double operator()(const dealii::Point<3> &x, unsigned int component) const;
 
     /// Products of functionals, shape (n_z, n_y, n_x).
     /// @param is_wanted  of the same shape: whose points are in Ω, others give 0; empty: all
@@ -41,6 +46,9 @@ namespace plumbline::problem
     std::optional<Field<3>> local_solution = {}; ///< of the local limit, if known and another
     bool is_load_given = true;                   ///< else it is manufactured from the solution
     MethodSettings settings = {};
+    /// Scattered nodes of meshfree methods; null: the centres of the lattice's cells. Galerkin
+    /// methods and averages have the lattice all the same.
+    std::shared_ptr<const geometry::NodeCells<3>> cells = {};
 
     double h() const { return lattice.h(); }
     double horizon() const { return kernel.horizon(); }

@@ -112,9 +112,9 @@ namespace plumbline::problem
       static const std::shared_ptr<const geometry::Mesh> none;
       return on_mesh() != nullptr ? on_mesh()->mesh : none;
     }
-    const std::shared_ptr<const geometry::NodeCells> &cells() const
+    const std::shared_ptr<const geometry::NodeCells<2>> &cells() const
     {
-      static const std::shared_ptr<const geometry::NodeCells> none;
+      static const std::shared_ptr<const geometry::NodeCells<2>> none;
       return on_mesh() != nullptr ? on_mesh()->cells : none;
     }
     const geometry::NodeLattice *body() const

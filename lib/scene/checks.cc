@@ -289,7 +289,9 @@ namespace plumbline::scene
     const SolverSection &solver = scene.solver;
     const bool is_free = scene.domain.is_free_body;
     const bool is_chosen = solver.iteration != Iteration::automatic;
-    const bool is_scattered = !scene.domain.mesh.is_lattice() && !is_free;
+    const bool is_scattered =
+        (!scene.domain.mesh.is_lattice() && !is_free) ||
+        (scene.domain.is_in_space() && !scene.methods.nodes.are_lattice_centres());
     const std::string iteration = "Solver/iteration = " + base::word(solver.iteration),
                       kept = "Solver/dilatation = mixed";
     require(!is_chosen || solver.linear_solver != SparseSolver::direct,

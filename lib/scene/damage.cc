@@ -19,7 +19,7 @@ namespace plumbline::scene
     return damage;
   }
 
-  void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells)
+  void check_damage(const Scene &scene, double horizon, const geometry::NodeCells<2> &cells)
   {
     const problem::Damage<2> damage = make_damage(scene, horizon);
     const auto is_ghost = problem::find_ghosts(damage, cells);

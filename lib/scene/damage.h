@@ -11,5 +11,5 @@ namespace plumbline::scene
 
   /// Cracks and free surfaces can be used with the nodes of a level.
   /// @throws InputError  as geometry::check_cracks and check_ghosts, naming the key
-  void check_damage(const Scene &scene, double horizon, const geometry::NodeCells &cells);
+  void check_damage(const Scene &scene, double horizon, const geometry::NodeCells<2> &cells);
 } // namespace plumbline::scene

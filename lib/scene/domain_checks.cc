@@ -121,7 +121,8 @@ namespace plumbline::scene
               "Kernel/type = " + scene.kernel.type,
               "dilatations on a lattice need an influence function without breaks; write "
               "Domain/mesh = squares, or another Kernel/type");
-        needs(scene.methods.nodes.perturbation == 0, "Methods/perturbation > 0", mesh_remedy);
+        needs(scene.domain.is_in_space() || scene.methods.nodes.perturbation == 0,
+              "Methods/perturbation > 0", mesh_remedy);
         needs(scene.problem.local_solution != LocalSolution::computed,
               "Problem/local solution = computed", mesh_remedy);
         return;
@@ -200,7 +201,8 @@ namespace plumbline::scene
               "Methods/nodes = '" + nodes +
                   "' is not known; write centres, vertices, mesh, or a file .csv");
       check_node_files(scene);
-      require(!mesh.is_lattice() || kind == NodeKind::centres || kind == NodeKind::vertices,
+      require(scene.domain.is_in_space() || !mesh.is_lattice() || kind == NodeKind::centres ||
+                  kind == NodeKind::vertices,
               on_mesh + mesh_remedy);
       require((mesh.is_of_boxes() && mesh.map.empty()) || scene.domain.is_free_body ||
                   kind != NodeKind::vertices,

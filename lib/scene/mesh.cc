@@ -225,8 +225,8 @@ namespace plumbline::scene
     return nodes;
   }
 
-  geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,
-                                      const geometry::Mesh &mesh)
+  geometry::NodeCells<2> make_node_cells(const Scene &scene, const Level &level,
+                                         const geometry::Mesh &mesh)
   {
     const NodeSource &source = scene.methods.nodes;
     if (source.are_vertices())

@@ -33,6 +33,6 @@ namespace plumbline::scene
 
   /// The nodes of a scene at a level and their cells.
   /// @throws InputError  nodes that cannot be used
-  geometry::NodeCells make_node_cells(const Scene &scene, const Level &level,
-                                      const geometry::Mesh &mesh);
+  geometry::NodeCells<2> make_node_cells(const Scene &scene, const Level &level,
+                                         const geometry::Mesh &mesh);
 } // namespace plumbline::scene

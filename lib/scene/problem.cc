@@ -5,6 +5,7 @@
 #include "scene/damage.h"
 #include "scene/mesh.h"
 #include "scene/models/model.h"
+#include "scene/nodes_in_space.h"
 
 #include <utility>
 
@@ -65,8 +66,8 @@ namespace plumbline::scene
       result.mesh = std::make_shared<const geometry::Mesh>(make_mesh(scene, level));
       result.mesh_seconds = timer.seconds();
       timer.restart();
-      result.cells =
-          std::make_shared<const geometry::NodeCells>(make_node_cells(scene, level, *result.mesh));
+      result.cells = std::make_shared<const geometry::NodeCells<2>>(
+          make_node_cells(scene, level, *result.mesh));
       result.cells_seconds = timer.seconds();
       return static_cast<const problem::MeshDomain &>(result);
     }
@@ -158,6 +159,9 @@ namespace plumbline::scene
                               make_kernel_in_space(scene, level.horizon)};
     given.dilatation = scene.material.model->dilatation_in_space(scene, level.horizon);
     given.settings = method_settings(scene);
+    if (!scene.methods.nodes.are_lattice_centres())
+      given.cells = std::make_shared<const geometry::NodeCells<3>>(
+          make_cells_in_space(scene, level, given.lattice));
     const ProblemSection &section = scene.problem;
     if (!section.solutions.empty())
       given.solution = field("Problem/solution", section.solutions[case_index].expression);

@@ -29,6 +29,23 @@ namespace plumbline::scene
       needs(!domain.collar, "Domain/interaction domain with a width", "write auto");
     }
 
+    void check_nodes_in_space(const Scene &scene)
+    {
+      const NodeSource &nodes = scene.methods.nodes;
+      needs(nodes.kind() == NodeKind::centres || nodes.kind() == NodeKind::file,
+            "Methods/nodes = " + nodes.name, "write centres, or a file .csv");
+      if (nodes.are_lattice_centres())
+        return;
+      const std::string scattered =
+          nodes.perturbation > 0
+              ? "Methods/perturbation = " + short_number(nodes.perturbation) + " with "
+              : "Methods/nodes = " + nodes.name + " with ";
+      const std::string remedy = ", or take centres without perturbation";
+      needs(!scene.has_dilatation(), scattered + "Material/model = " + scene.material.model->name(),
+            "write bond-based" + remedy);
+      needs(!scene.time.is_dynamic(), scattered + "a motion", "write Time/final time = 0" + remedy);
+    }
+
     void check_study_in_space(const Scene &scene)
     {
       const MaterialSection &material = scene.material;
@@ -48,11 +65,7 @@ namespace plumbline::scene
               "Material/nu, or Domain/dimension = 2");
       needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
             "cracks and strips", "clear Crack, Fracture and Strip");
-      const NodeSource &nodes = scene.methods.nodes;
-      needs(nodes.kind() == NodeKind::centres && nodes.perturbation == 0,
-            "Methods/nodes = " + nodes.name + " with perturbation " +
-                short_number(nodes.perturbation),
-            "write centres without perturbation");
+      check_nodes_in_space(scene);
       needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
             "Kernel/coefficient and Kernel/materials", "clear both");
       needs(!scene.solver.is_full_model, "Solver/model = full", "write smallest");

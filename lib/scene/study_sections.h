@@ -21,10 +21,11 @@ namespace plumbline::scene
   struct NodeSource
   {
     std::string name = "centres"; ///< centres, vertices, mesh, or a .csv file
-    double perturbation = 0;      ///< of centres, by up to so many h in x and in y
+    double perturbation = 0;      ///< of centres, by up to so many h along each axis
 
     NodeKind kind() const { return base::from_word<NodeKind>(name).value_or(NodeKind::file); }
     bool are_vertices() const { return kind() == NodeKind::vertices; }
+    bool are_lattice_centres() const { return kind() == NodeKind::centres && perturbation == 0; }
 
     static constexpr auto level_mark = "{h}"; ///< in a file's name: the mesh size of the level
     bool is_for_each_level() const { return name.find(level_mark) != std::string::npos; }

@@ -22,7 +22,8 @@ namespace plumbline::scene
     {
       const Regime regime = scene.study.regime;
       const bool takes_horizon = regime == Regime::m || regime == Regime::horizon,
-                 is_static = !scene.time.is_dynamic(), is_in_space = scene.domain.is_in_space();
+                 is_static = !scene.time.is_dynamic(), is_in_space = scene.domain.is_in_space(),
+                 is_on_cubes = is_in_space && scene.methods.nodes.are_lattice_centres();
       const std::string exact = "two dimensions; entries on lattices in three dimensions are exact";
       return {{"Study/m", !takes_horizon,
                "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
@@ -43,11 +44,10 @@ namespace plumbline::scene
               {"Quadrature/max refinements", !is_in_space, exact},
               {"Geometry/backend", !is_in_space, "two dimensions"},
               {"Geometry/checks", !is_in_space, "two dimensions"},
-              {"Geometry/seed", !is_in_space, "two dimensions"},
-              {"Solver/linear solver", !is_in_space,
-               "two dimensions; lattices in three dimensions are solved by conjugate gradients "
-               "with sine "
-               "transforms"},
+              {"Geometry/seed", !is_on_cubes, "two dimensions, or Methods/perturbation > 0"},
+              {"Solver/linear solver", !is_on_cubes,
+               "two dimensions or scattered nodes; lattices in three dimensions are solved by "
+               "conjugate gradients with sine transforms"},
               {"Solver/tolerance", is_static || !is_in_space, "a static problem"},
               {"Solver/max iterations", is_static || !is_in_space, "a static problem"},
               {"Time/critical fractions", scene.time.steps.empty(),

@@ -201,7 +201,7 @@ namespace plumbline::study
     return result;
   }
 
-  std::vector<double> cell_averages(const Field &field, const geometry::NodeCells &cells,
+  std::vector<double> cell_averages(const Field &field, const geometry::NodeCells<2> &cells,
                                     unsigned int n_components)
   {
     constexpr unsigned int degree = 9;

@@ -17,7 +17,7 @@ namespace plumbline::study
 
   /// The same over the cells of scattered nodes: by a rule of degree 9 on each piece.
   std::vector<double> cell_averages(const problem::Field<2> &field,
-                                    const geometry::NodeCells &cells, unsigned int n_components);
+                                    const geometry::NodeCells<2> &cells, unsigned int n_components);
 
   /// Over whichever cells the problem is compared on.
   std::vector<double> cell_averages(const problem::Field<2> &field,

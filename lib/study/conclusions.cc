@@ -319,7 +319,8 @@ namespace plumbline::study
         results.omissions.push_back(
             {"the dilatation as an unknown",
              "homogeneous: condensed, it is part of one stencil of twice the reach",
-             "a third of the unknowns, and a system that stays positive definite"});
+             std::string(scene.domain.is_in_space() ? "a quarter" : "a third") +
+                 " of the unknowns, and a system that stays positive definite"});
       if (scene.material.model->is_state_based() && scene.material.is_homogeneous)
         results.omissions.push_back({"means of the material at both ends of each bond",
                                      "the material is homogeneous", megabytes(16 * bonds) + where});

@@ -32,6 +32,7 @@ namespace plumbline::study
         const auto n = scene.domain.cubes(level.h).n_cells();
         size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
         size.depth = n[2];
+        size.is_scattered = !scene.methods.nodes.are_lattice_centres();
         return size;
       }
       const auto n = scene.domain.lattice(level.h).n_cells();

@@ -222,8 +222,8 @@ namespace plumbline::study
     return method.discretise(problem, base::Communicator::alone());
   }
 
-  std::unique_ptr<method::BoxDiscretisation> discretise(const method::Method &method,
-                                                        const problem::Problem<3> &problem)
+  std::unique_ptr<method::DiscretisationInSpace> discretise(const method::Method &method,
+                                                            const problem::Problem<3> &problem)
   {
     return method.discretise_in_space(problem);
   }

@@ -75,6 +75,6 @@ namespace plumbline::study
   /// Of a problem of either dimension.
   std::unique_ptr<method::Discretisation> discretise(const method::Method &method,
                                                      const problem::Problem<2> &problem);
-  std::unique_ptr<method::BoxDiscretisation> discretise(const method::Method &method,
-                                                        const problem::Problem<3> &problem);
+  std::unique_ptr<method::DiscretisationInSpace> discretise(const method::Method &method,
+                                                            const problem::Problem<3> &problem);
 } // namespace plumbline::study

@@ -31,7 +31,7 @@ namespace plumbline::study
   void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first);
 
   /// Nothing to refine: in three dimensions matrix entries are exact.
-  inline void settle_quadrature(method::BoxDiscretisation &, const problem::Problem<3> &) {}
+  inline void settle_quadrature(method::DiscretisationInSpace &, const problem::Problem<3> &) {}
 
   /// What a Galerkin method's motion may be wrong by in space and by quadrature, at the final time,
   /// L2 over nodes. Space: with the changes d to h/2 and d' from 2 h, at the nodes that both have,

@@ -35,7 +35,7 @@ namespace plumbline::study
       }
       return result;
     }
-    const geometry::NodeCells &cells = *problem.cells();
+    const geometry::NodeCells<2> &cells = *problem.cells();
     for (std::size_t c = 0; c < cells.n_free; ++c)
     {
       result.area.push_back(cells.area[c]);
@@ -55,7 +55,7 @@ namespace plumbline::study
     std::vector<geometry::Box> boxes;
     for (const geometry::Polygon &piece : others.pieces)
       boxes.push_back(geometry::bounding_box(view(piece)));
-    const geometry::BoxSearch search(std::move(boxes));
+    const geometry::BoxSearch<2> search(std::move(boxes));
     std::vector<double> sum(cells.area.size() * n_components), shared(cells.area.size());
     std::vector<unsigned int> found;
     for (std::size_t p = 0; p < cells.pieces.size(); ++p)

@@ -301,10 +301,10 @@ namespace plumbline::study
                        *averages);
         if (problem.solution)
           set_errors(run, Quantity::nodal, Target::exact, problem.n_components, solution.nodal,
-                     nodal_values(*problem.solution, solution));
+                     nodal_values(*problem.solution, solution), solution.volumes);
         if (problem.local_solution)
           set_errors(run, Quantity::nodal, Target::local, problem.n_components, solution.nodal,
-                     nodal_values(*problem.local_solution, solution));
+                     nodal_values(*problem.local_solution, solution), solution.volumes);
         if (place_.is_finest())
           finish_series(one, solution, run);
       }
@@ -365,18 +365,21 @@ namespace plumbline::study
         return values;
       }
 
-      /// Of the scene's norms. Each value stands for the same part of Ω.
+      /// Of the scene's norms.
+      /// @param volumes  that values stand for, shape (n_places); empty: equal parts of Ω
       void set_errors(Record &run, Quantity quantity, Target target, unsigned int n_components,
-                      const std::vector<double> &found, const std::vector<double> &right) const
+                      const std::vector<double> &found, const std::vector<double> &right,
+                      const std::vector<double> &volumes = {}) const
       {
         double largest = 0, squares = 0;
         for (std::size_t i = 0; i < found.size(); ++i)
         {
+          const double weight = volumes.empty() ? 1 : volumes[i / n_components];
           largest = std::max(largest, std::abs(found[i] - right[i]));
-          squares += std::pow(found[i] - right[i], 2);
+          squares += weight * std::pow(found[i] - right[i], 2);
         }
         const double n_places = static_cast<double>(found.size()) / n_components,
-                     l2 = std::sqrt(squares * run["area"] / n_places);
+                     l2 = std::sqrt(volumes.empty() ? squares * run["area"] / n_places : squares);
         for (const scene::Norm norm : scene_.study.norms)
           if (scene::quantity(norm) == quantity)
           {

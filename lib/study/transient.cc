@@ -81,7 +81,7 @@ namespace plumbline::study
       return discretisation.finer_motion(is_lumped);
     }
 
-    std::unique_ptr<method::MotionOf<3>> finer_motion(const method::BoxDiscretisation &, bool)
+    std::unique_ptr<method::MotionOf<3>> finer_motion(const method::DiscretisationInSpace &, bool)
     {
       return nullptr;
     }

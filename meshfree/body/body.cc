@@ -71,7 +71,7 @@ namespace plumbline::meshfree
   }
 
   VariationalBody body_of_cells(const geometry::NodeLattice &lattice,
-                                const geometry::NodeCells &cells,
+                                const geometry::NodeCells<2> &cells,
                                 const VariationalMaterial &material)
   {
     VariationalBody body{lattice.h, lattice.origin, lattice.n, {}, {}, {}, {}};

@@ -45,7 +45,7 @@ namespace plumbline::meshfree
   /// A solid on the cells of lattice nodes.
   /// @param cells  of the lattice, by `source`; those beyond n_free are fixed
   VariationalBody body_of_cells(const geometry::NodeLattice &lattice,
-                                const geometry::NodeCells &cells,
+                                const geometry::NodeCells<2> &cells,
                                 const VariationalMaterial &material);
 
   /// A solid of any shape on the nodes hZ².

@@ -32,7 +32,7 @@ namespace plumbline::meshfree
     algebra::Vector cell_integrals(const VariationalBody &body, const problem::Problem<2> &problem)
     {
       constexpr unsigned int degree = 5;
-      const geometry::NodeCells &cells = *problem.cells();
+      const geometry::NodeCells<2> &cells = *problem.cells();
       algebra::Vector result(2 * body.size());
       for (std::size_t cell = 0; cell < cells.n_free; ++cell)
         for (std::size_t piece = cells.first_piece[cell]; piece < cells.first_piece[cell + 1];
@@ -176,7 +176,7 @@ namespace plumbline::meshfree
         return result;
       }
 
-      std::shared_ptr<const geometry::NodeCells> cells_;
+      std::shared_ptr<const geometry::NodeCells<2>> cells_;
       bool loads_are_averages_;
       std::shared_ptr<const VariationalOperator> matrix_;
       method::Diagnostics diagnostics_;

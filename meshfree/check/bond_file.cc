@@ -152,10 +152,10 @@ namespace plumbline::meshfree
     }
 
     /// The same cells in another order.
-    geometry::NodeCells reordered(const geometry::NodeCells &cells,
-                                  const std::vector<std::size_t> &order, std::size_t n_free)
+    geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &cells,
+                                     const std::vector<std::size_t> &order, std::size_t n_free)
     {
-      geometry::NodeCells result;
+      geometry::NodeCells<2> result;
       result.n_free = n_free;
       result.first_piece = {0};
       for (const std::size_t c : order)
@@ -190,7 +190,7 @@ namespace plumbline::meshfree
     geometry::Mesh everywhere = mesh;
     for (geometry::MeshCell &cell : everywhere.cells)
       cell.is_inside = true;
-    const geometry::NodeCells uncut = geometry::voronoi_cells(nodes.places, everywhere);
+    const geometry::NodeCells<2> uncut = geometry::voronoi_cells(nodes.places, everywhere);
     GivenCells result;
     result.n_on_boundary =
         static_cast<std::size_t>(std::count(is_on_boundary.begin(), is_on_boundary.end(), true));
@@ -254,7 +254,7 @@ namespace plumbline::meshfree
   } // namespace
 
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
-                                    const geometry::NodeCells &cells)
+                                    const geometry::NodeCells<2> &cells)
   {
     base::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))

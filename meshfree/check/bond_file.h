@@ -48,7 +48,7 @@ namespace plumbline::meshfree
   /// The Voronoi cells of given nodes.
   struct GivenCells
   {
-    geometry::NodeCells cells;
+    geometry::NodeCells<2> cells;
     std::vector<double> uncut_areas; ///< numbered as the cells; not cut at the boundary of Ω
     std::size_t n_on_boundary = 0;   ///< nodes on the boundary of Ω
   };
@@ -88,5 +88,5 @@ namespace plumbline::meshfree
   /// bond of a node with itself or given twice, a kernel point at 0, a free node without bonds (but
   /// in half lists); ids that are off those of the nodes by one are told as such
   GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
-                                    const geometry::NodeCells &cells);
+                                    const geometry::NodeCells<2> &cells);
 } // namespace plumbline::meshfree

@@ -37,7 +37,7 @@ namespace plumbline::meshfree
     std::vector<geometry::Box> places;
     for (const Point<2> &x : given.cells.nodes)
       places.push_back({x, x});
-    const geometry::BoxSearch search(places);
+    const geometry::BoxSearch<2> search(places);
     const double reach = reach_of(given);
     std::vector<Pair> pairs;
     std::vector<unsigned int> near;

@@ -59,9 +59,9 @@ namespace plumbline::meshfree
 
     std::vector<Family<2>> families_of(const Rule &rule, const GivenBonds &given)
     {
-      geometry::NodeCells cells = given.cells;
+      geometry::NodeCells<2> cells = given.cells;
       cells.area = given.volumes;
-      const Families families(rule.in_plane(given.kernel), given.kernel, cells, Backend::fast);
+      const Families<2> families(rule.in_plane(given.kernel), given.kernel, cells, Backend::fast);
       std::vector<Family<2>> result(families.size());
       for (std::size_t i = 0; i < families.size(); ++i)
         families.make(i, result[i]);

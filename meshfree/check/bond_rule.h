@@ -13,8 +13,8 @@ namespace plumbline::meshfree
   {
     const std::vector<Family<2>> &families; ///< of the free nodes
     const Kernel<2> &kernel;
-    const geometry::NodeCells &cells;   ///< of all nodes
-    const std::vector<double> &volumes; ///< of all nodes, numbered as the cells
+    const geometry::NodeCells<2> &cells; ///< of all nodes
+    const std::vector<double> &volumes;  ///< of all nodes, numbered as the cells
     Precision precision = {};
     Point<2> origin = {}; ///< that the places of the cells count from, see GivenNodes
   };

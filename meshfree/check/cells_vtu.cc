@@ -8,7 +8,7 @@
 
 namespace plumbline::meshfree
 {
-  void write_cells_vtu(const geometry::NodeCells &cells, const std::vector<std::string> &names,
+  void write_cells_vtu(const geometry::NodeCells<2> &cells, const std::vector<std::string> &names,
                        const std::vector<double> &values, const std::string &file)
   {
     using Patch = dealii::DataOutBase::Patch<2, 2>;

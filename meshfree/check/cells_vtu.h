@@ -11,6 +11,6 @@ namespace plumbline::meshfree
   /// @param names   of the columns, shape (n_columns)
   /// @param values  of the first cells, shape (n_cells, n_columns)
   /// @throws InputError  the file cannot be written
-  void write_cells_vtu(const geometry::NodeCells &cells, const std::vector<std::string> &names,
+  void write_cells_vtu(const geometry::NodeCells<2> &cells, const std::vector<std::string> &names,
                        const std::vector<double> &values, const std::string &file);
 } // namespace plumbline::meshfree

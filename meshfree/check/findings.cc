@@ -137,7 +137,8 @@ namespace plumbline::meshfree
     find_causes(found, problem, meant);
     try
     {
-      const FamilySource source = [&](std::size_t i, Family<2> &family) { family = families[i]; };
+      const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
+      { family = families[i]; };
       found.matrix = algebra::check_matrix(
           scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
     }

@@ -17,7 +17,7 @@ namespace plumbline::meshfree
   struct GivenWeights
   {
     GivenNodes nodes;
-    std::shared_ptr<const geometry::NodeCells> cells; ///< of the nodes, by their places
+    std::shared_ptr<const geometry::NodeCells<2>> cells; ///< of the nodes, by their places
     GivenFamilies given;
     std::vector<double> volumes; ///< of the nodes as given, numbered as the cells
   };

@@ -6,7 +6,7 @@
 
 namespace plumbline::meshfree
 {
-  NodeIndex::NodeIndex(const GivenNodes &nodes, const geometry::NodeCells &cells)
+  NodeIndex::NodeIndex(const GivenNodes &nodes, const geometry::NodeCells<2> &cells)
   {
     for (unsigned int k = 0; k < cells.size(); ++k)
       node_of_id_[nodes.id[cells.source[k]]] = k;
@@ -31,7 +31,7 @@ namespace plumbline::meshfree
     };
 
     Fitness fitness(const std::vector<GivenRow> &rows, const Shift &shift, const NodeIndex &index,
-                    const geometry::NodeCells &cells)
+                    const geometry::NodeCells<2> &cells)
     {
       Fitness result;
       std::vector<bool> has_bonds(cells.n_free);
@@ -69,7 +69,7 @@ namespace plumbline::meshfree
   } // namespace
 
   std::string shifted_ids(const std::vector<GivenRow> &rows, const NodeIndex &index,
-                          const geometry::NodeCells &cells)
+                          const geometry::NodeCells<2> &cells)
   {
     constexpr double shorter = .999;
     const Fitness given = fitness(rows, {0, 0}, index, cells);

@@ -17,7 +17,7 @@ namespace plumbline::meshfree
   class NodeIndex
   {
   public:
-    NodeIndex(const GivenNodes &nodes, const geometry::NodeCells &cells);
+    NodeIndex(const GivenNodes &nodes, const geometry::NodeCells<2> &cells);
     std::optional<unsigned int> find(std::int64_t id) const;
 
   private:
@@ -29,7 +29,7 @@ namespace plumbline::meshfree
   /// bonds, and the bonds are shorter, all of which fails as they stand.
   /// @return  a sentence; empty: they are not
   std::string shifted_ids(const std::vector<GivenRow> &rows, const NodeIndex &index,
-                          const geometry::NodeCells &cells);
+                          const geometry::NodeCells<2> &cells);
 
   /// Whether nearly no pair of free nodes has bonds both ways.
   bool is_half_list(const std::vector<GivenRow> &rows, const NodeIndex &index, std::size_t n_free);

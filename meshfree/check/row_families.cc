@@ -42,7 +42,7 @@ namespace plumbline::meshfree
     /// By the first node of the bonds.
     std::vector<std::vector<Row>> rows_by_node(const std::vector<GivenRow> &given,
                                                const NodeIndex &index, const GivenNodes &nodes,
-                                               const geometry::NodeCells &cells)
+                                               const geometry::NodeCells<2> &cells)
     {
       std::vector<std::vector<Row>> rows(cells.size());
       for (const GivenRow &row : given)
@@ -77,7 +77,7 @@ namespace plumbline::meshfree
   } // namespace
 
   GivenFamilies families_of_rows(const std::vector<GivenRow> &given, const GivenNodes &nodes,
-                                 const geometry::NodeCells &cells, const RowSource &source)
+                                 const geometry::NodeCells<2> &cells, const RowSource &source)
   {
     const NodeIndex index(nodes, cells);
     const auto fail_unless_shifted = [&](const std::string &message)

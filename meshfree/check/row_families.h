@@ -25,5 +25,5 @@ namespace plumbline::meshfree
   /// @throws InputError  unknown ids, a bond of a node with itself or given twice, a free node
   /// without bonds (but in half lists); ids that are off those of the nodes by one are told as such
   GivenFamilies families_of_rows(const std::vector<GivenRow> &given, const GivenNodes &nodes,
-                                 const geometry::NodeCells &cells, const RowSource &source);
+                                 const geometry::NodeCells<2> &cells, const RowSource &source);
 } // namespace plumbline::meshfree

@@ -125,7 +125,7 @@ namespace plumbline::meshfree
 
   VolumeCheck check_volumes(const GivenBonds &given, const Values &uncut_areas)
   {
-    const geometry::NodeCells &cells = given.cells;
+    const geometry::NodeCells<2> &cells = given.cells;
     const std::size_t n_free = given.families.size(), n = cells.size();
     const double floor = given.precision.volume;
     VolumeCheck check;

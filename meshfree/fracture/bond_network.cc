@@ -119,7 +119,7 @@ namespace plumbline::meshfree
       }
 
     private:
-      const geometry::NodeCells &cells(const BondNetwork &network)
+      const geometry::NodeCells<2> &cells(const BondNetwork &network)
       {
         cells_.nodes = network.nodes;
         cells_.n_free = network.nodes.size();
@@ -128,7 +128,7 @@ namespace plumbline::meshfree
         return cells_;
       }
 
-      geometry::NodeCells cells_; // before what is made of them
+      geometry::NodeCells<2> cells_; // before what is made of them
       BrokenBonds broken_;
       Family<2> one_;
       std::vector<char> is_intact_;

@@ -109,12 +109,14 @@ namespace plumbline::meshfree
   template class BallMoments<2>;
   template class BallMoments<3>;
 
-  double MomentBias::Part::spread(std::size_t i) const
+  template <int dim>
+  double MomentBias<dim>::Part::spread(std::size_t i) const
   {
     return std::sqrt(std::max(0., squares[i] / n - mean(i) * mean(i)));
   }
 
-  void MomentBias::Part::operator+=(const Part &other)
+  template <int dim>
+  void MomentBias<dim>::Part::operator+=(const Part &other)
   {
     n += other.n;
     for (std::size_t i = 0; i < most_defects; ++i)
@@ -124,11 +126,12 @@ namespace plumbline::meshfree
     }
   }
 
-  void MomentBias::add(const Point<2> &node, const std::vector<double> &defects,
-                       std::size_t n_bonds)
+  template <int dim>
+  void MomentBias<dim>::add(const Point<dim> &node, const std::vector<double> &defects,
+                            std::size_t n_bonds)
   {
     std::size_t place = 0;
-    for (const unsigned int axis : {1u, 0u})
+    for (unsigned int axis = dim; axis-- > 0;)
     {
       const double width = upper_[axis] - lower_[axis];
       const double way = width > 0 ? (node[axis] - lower_[axis]) / width : 0;
@@ -145,10 +148,13 @@ namespace plumbline::meshfree
     n_bonds_ = std::max(n_bonds_, static_cast<double>(n_bonds));
   }
 
-  MomentBias::Answer MomentBias::answer(const base::Communicator &communicator) const
+  template <int dim>
+  typename MomentBias<dim>::Answer
+  MomentBias<dim>::answer(const base::Communicator &communicator) const
   {
     constexpr double n_errors = 4; // standard errors of a mean, to be no chance among hundreds
-    const double n_in_common = 4 * communicator.largest(n_bonds_);
+    // those of a ball of twice the radius
+    const double n_in_common = (dim == 2 ? 4 : 8) * communicator.largest(n_bonds_);
     Answer answer;
     Part whole;
     const auto is_bias = [](double mean, double spread, double n)
@@ -179,4 +185,7 @@ namespace plumbline::meshfree
     }
     return answer;
   }
+
+  template class MomentBias<2>;
+  template class MomentBias<3>;
 } // namespace plumbline::meshfree

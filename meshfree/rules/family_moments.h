@@ -39,16 +39,17 @@ namespace plumbline::meshfree
 
   /// Means and spreads of the defects of families, over the whole domain and over parts of it. A
   /// mean that is no chance is a bias, and the limit has it, whichever component it is of.
+  template <int dim>
   class MomentBias
   {
   public:
     MomentBias() = default;
     /// @param lower, upper  corners of the box that the nodes are in
-    MomentBias(const Point<2> &lower, const Point<2> &upper) : lower_(lower), upper_(upper) {}
+    MomentBias(const Point<dim> &lower, const Point<dim> &upper) : lower_(lower), upper_(upper) {}
 
-    static constexpr std::size_t most_defects = 15;
+    static constexpr std::size_t most_defects = dim == 2 ? 15 : 54; ///< of a tensor
     /// @param defects  at most so many
-    void add(const Point<2> &node, const std::vector<double> &defects, std::size_t n_bonds);
+    void add(const Point<dim> &node, const std::vector<double> &defects, std::size_t n_bonds);
 
     struct Answer
     {
@@ -57,8 +58,9 @@ namespace plumbline::meshfree
       bool is_biased = false;
     };
     /// The mean over all families is biased where it is larger than four standard errors, families
-    /// being independent. Parts are the 4 × 4 boxes of the domain that hold more families than one
-    /// of them has in common with others, (2 horizons)²: there so many count as one.
+    /// being independent. Parts are the boxes of the domain, 4 along each axis, that hold more
+    /// families than one of them has in common with others, (2 horizons)^dim: there so many count
+    /// as one.
     /// @note Collective.
     Answer answer(const base::Communicator &communicator) const;
 
@@ -74,8 +76,8 @@ namespace plumbline::meshfree
     };
     static constexpr std::size_t n_side = 4;
 
-    Point<2> lower_, upper_;
-    std::array<Part, n_side * n_side> parts_;
+    Point<dim> lower_, upper_;
+    std::array<Part, dim == 2 ? n_side * n_side : n_side * n_side * n_side> parts_;
     double n_bonds_ = 0; ///< of the largest family
   };
 } // namespace plumbline::meshfree

@@ -32,7 +32,8 @@ namespace plumbline::meshfree
   namespace
   {
     /// What the moments of all families say of the limit.
-    void judge_moments(method::LimitProof &limit, const MomentBias::Answer &bias, bool is_m_matrix)
+    template <class Bias>
+    void judge_moments(method::LimitProof &limit, const Bias &bias, bool is_m_matrix)
     {
       using Answer = method::LimitProof::Answer;
       limit.mean_defect = bias.mean;
@@ -58,14 +59,16 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  FamilyStatistics::FamilyStatistics(const geometry::NodeCells &cells, unsigned int ball_order)
+  template <int dim>
+  FamilyStatistics<dim>::FamilyStatistics(const geometry::NodeCells<dim> &cells,
+                                          unsigned int ball_order)
       : ball_order_(ball_order)
   {
     if (cells.n_free == 0)
       return;
-    Point<2> lower = cells.nodes.front(), upper = lower;
+    Point<dim> lower = cells.nodes.front(), upper = lower;
     for (std::size_t i = 0; i < cells.n_free; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         lower[d] = std::min(lower[d], cells.nodes[i][d]);
         upper[d] = std::max(upper[d], cells.nodes[i][d]);
@@ -73,7 +76,9 @@ namespace plumbline::meshfree
     bias_ = {lower, upper};
   }
 
-  void FamilyStatistics::add(const Kernel<2> &kernel, const Point<2> &node, const Family<2> &family)
+  template <int dim>
+  void FamilyStatistics<dim>::add(const Kernel<dim> &kernel, const Point<dim> &node,
+                                  const Family<dim> &family)
   {
     const auto any = [&](const auto &is) -> int
     { return std::any_of(family.bonds.begin(), family.bonds.end(), is) ? 1 : 0; };
@@ -97,14 +102,16 @@ namespace plumbline::meshfree
       ball_defect_ = std::max(ball_defect_, all_->worst_defect(family.bonds));
       area_defect_ = std::max(area_defect_, all_->area_defect(family.bonds));
     }
-    n_negative_ += any([](const Bond<2> &bond) { return bond.weight < 0; });
+    n_negative_ += any([](const Bond<dim> &bond) { return bond.weight < 0; });
     n_unstable_ +=
-        any([&](const Bond<2> &bond) { return bond.weight * radial_value(kernel, bond) < 0; });
+        any([&](const Bond<dim> &bond) { return bond.weight * radial_value(kernel, bond) < 0; });
     n_dependent_ += family.fit.rank < family.fit.n_conditions ? 1 : 0;
     n_clipped_ += family.is_clipped ? 1 : 0;
   }
 
-  method::Diagnostics FamilyStatistics::diagnostics(const base::Communicator &communicator) const
+  template <int dim>
+  method::Diagnostics
+  FamilyStatistics<dim>::diagnostics(const base::Communicator &communicator) const
   {
     const auto total = [&](double n) { return static_cast<std::uint64_t>(communicator.sum(n)); };
     method::Diagnostics result;
@@ -134,4 +141,7 @@ namespace plumbline::meshfree
          ": their rows are not diagonally dominant, the matrix is no M-matrix");
     return result;
   }
+
+  template class FamilyStatistics<2>;
+  template class FamilyStatistics<3>;
 } // namespace plumbline::meshfree

@@ -35,7 +35,8 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BrokenBonds::BrokenBonds(const Damage &damage, const geometry::NodeCells &cells, double horizon)
+  BrokenBonds::BrokenBonds(const Damage &damage, const geometry::NodeCells<2> &cells,
+                           double horizon)
       : cells_(&cells), is_ghost_(damage.is_ghost), tolerance_(geometry::on_crack * horizon),
         search_(boxes(damage.cracks))
   {
@@ -86,7 +87,7 @@ namespace plumbline::meshfree
     return all;
   }
 
-  Faces find_faces(const Damage &damage, const geometry::NodeCells &cells, double horizon)
+  Faces find_faces(const Damage &damage, const geometry::NodeCells<2> &cells, double horizon)
   {
     std::vector<Face> faces = faces_of(damage.cracks);
     const auto is_in_body = [&](const Point<2> &x)
@@ -112,7 +113,7 @@ namespace plumbline::meshfree
     return {std::move(faces), std::move(tips), horizon};
   }
 
-  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
+  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells<2> &cells,
                          std::size_t node)
   {
     if (std::find(is_intact.begin(), is_intact.end(), 1) != is_intact.end())

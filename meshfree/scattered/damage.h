@@ -27,7 +27,7 @@ namespace plumbline::meshfree
   {
   public:
     /// @throws InputError  as geometry::check_cracks and check_ghosts
-    BrokenBonds(const Damage &damage, const geometry::NodeCells &cells, double horizon);
+    BrokenBonds(const Damage &damage, const geometry::NodeCells<2> &cells, double horizon);
 
     /// Thread safe.
     /// @param is_intact  overwritten, of each bond
@@ -45,18 +45,18 @@ namespace plumbline::meshfree
 
     bool crosses(const Segment &segment, const Point<2> &p, const Point<2> &q) const;
 
-    const geometry::NodeCells *cells_;
+    const geometry::NodeCells<2> *cells_;
     std::vector<char> is_ghost_;
     double tolerance_; ///< [length]
     std::vector<Segment> segments_;
-    geometry::BoxSearch search_; ///< over the segments
+    geometry::BoxSearch<2> search_; ///< over the segments
   };
 
   /// The faces of a body on nodes, and the tips of its cracks.
-  Faces find_faces(const Damage &damage, const geometry::NodeCells &cells, double horizon);
+  Faces find_faces(const Damage &damage, const geometry::NodeCells<2> &cells, double horizon);
 
   /// @throws InputError  of a node whose family is not whole: nothing of it is left
-  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells &cells,
+  void check_constrained(const std::vector<char> &is_intact, const geometry::NodeCells<2> &cells,
                          std::size_t node);
 
   /// What broken bonds make of a family.

@@ -199,7 +199,7 @@ namespace plumbline::meshfree
         return result;
       }
 
-      std::shared_ptr<const geometry::NodeCells> cells_;
+      std::shared_ptr<const geometry::NodeCells<2>> cells_;
       unsigned int n_components_;
       bool is_mixed_;
       mutable method::PartitionedRows moving_; ///< rows by volumes, once there is a motion
@@ -208,7 +208,7 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics_;
     };
 
-    Families families_of(const Rule &rule, const problem::Problem<2> &problem)
+    Families<2> families_of(const Rule &rule, const problem::Problem<2> &problem)
     {
       return {rule.in_plane(problem.kernel), problem.kernel, *problem.cells(),
               problem.settings.geometry.backend};
@@ -239,7 +239,7 @@ namespace plumbline::meshfree
                                     const base::Communicator &communicator,
                                     std::pair<std::size_t, std::size_t> share)
     {
-      const Families families = families_of(rule, problem);
+      const Families<2> families = families_of(rule, problem);
       if (!problem.dilatation)
         return scattered_operator(families, problem, share);
       const auto make = [&](std::size_t node, Family<2> &family) { families.make(node, family); };
@@ -284,6 +284,17 @@ namespace plumbline::meshfree
   {
     const double n_components = size.n_components;
     const problem::Level &level = size.level;
+    // rows that grow as vectors do, Trilinos' copy and a preconditioner; measured
+    constexpr double of_entry = 40, of_node = 1000;
+    if (size.is_scattered)
+    {
+      constexpr double of_cell = 8000; // a polyhedron, in the layer around the box, too
+      const double m = level.horizon / level.h, width = 2 * (m + 1);
+      const double in_ball = 4 * M_PI / 3 * std::pow(m + .25, 3);
+      return size.extents[0] * size.extents[1] * size.depth * in_ball * std::pow(n_components, 2) *
+                 of_entry +
+             (size.extents[0] + width) * (size.extents[1] + width) * (size.depth + width) * of_cell;
+    }
     if (size.is_lattice())
       return method::expected_lattice_bytes(size, 1, size.n_components, size.reach() / level.h + 1);
     if (size.is_body) // two sums more by transforms than on a lattice
@@ -292,8 +303,6 @@ namespace plumbline::meshfree
       box.extents.fill(std::sqrt(size.n_cells * size.cell_area) / level.h);
       return 2 * method::expected_lattice_bytes(box, 1, 2, 2 * level.horizon / level.h + 1);
     }
-    // rows that grow as vectors do, Trilinos' copy and a preconditioner; measured
-    constexpr double of_entry = 40, of_node = 1000;
     const double m = size.reach() / std::sqrt(size.cell_area) + .75;
     return size.n_free * (M_PI * m * m * n_components * n_components * of_entry + of_node);
   }

@@ -56,7 +56,7 @@ namespace plumbline::meshfree
     class ScatteredWells : public method::NodalMotion<>
     {
     public:
-      ScatteredWells(const problem::Problem<2> &problem, const Families &families)
+      ScatteredWells(const problem::Problem<2> &problem, const Families<2> &families)
           : cells_(problem.cells()), start_{0}
       {
         const std::size_t n_free = cells_->n_free;
@@ -311,7 +311,7 @@ namespace plumbline::meshfree
         return bond.way[0] * y[i] + bond.way[1] * y[nodes_.size() + i];
       }
 
-      std::shared_ptr<const geometry::NodeCells> cells_;
+      std::shared_ptr<const geometry::NodeCells<2>> cells_;
       std::vector<double> roots_;      ///< of the free nodes' cells
       std::vector<std::size_t> start_; ///< of each free node's bonds
       std::vector<CellBond> bonds_;
@@ -321,7 +321,7 @@ namespace plumbline::meshfree
   } // namespace
 
   std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
-                                                             const Families &families)
+                                                             const Families<2> &families)
   {
     return std::make_unique<ScatteredWells>(problem, families);
   }

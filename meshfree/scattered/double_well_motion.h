@@ -15,5 +15,5 @@ namespace plumbline::meshfree
   /// @throws NumericalError  a family that cannot be made
   /// @pre problem.double_well, problem.cells(), whose cells the families are made of
   std::unique_ptr<method::EquationOfMotion> move_double_well(const problem::Problem<2> &problem,
-                                                             const Families &families);
+                                                             const Families<2> &families);
 } // namespace plumbline::meshfree

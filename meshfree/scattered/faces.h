@@ -58,7 +58,7 @@ namespace plumbline::meshfree
     std::vector<Face> faces_;
     std::vector<Point<2>> ends_;
     double horizon_;
-    geometry::BoxSearch search_; ///< over the faces
+    geometry::BoxSearch<2> search_; ///< over the faces
   };
 
   /// Ends of open polylines at which no face goes on: the tips.

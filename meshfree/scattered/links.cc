@@ -2,7 +2,7 @@
 
 namespace plumbline::meshfree
 {
-  Links::Links(const FamilySource &families, const StateBasedBody &body,
+  Links::Links(const FamilySource<2> &families, const StateBasedBody &body,
                std::pair<std::size_t, std::size_t> share)
       : nodes_(body.cells->size()), statistics_(*body.cells, body.ball_order)
   {

@@ -20,7 +20,7 @@ namespace plumbline::meshfree
   {
   public:
     /// @throws as state_based_operator
-    Links(const FamilySource &families, const StateBasedBody &body,
+    Links(const FamilySource<2> &families, const StateBasedBody &body,
           std::pair<std::size_t, std::size_t> share);
 
     bool has(std::size_t node) const { return nodes_[node].last > nodes_[node].first; }
@@ -38,7 +38,7 @@ namespace plumbline::meshfree
       return link.strength * (nodes_[node].remainder.correction * link.xi);
     }
 
-    const FamilyStatistics &statistics() const { return statistics_; } ///< of the share
+    const FamilyStatistics<2> &statistics() const { return statistics_; } ///< of the share
 
   private:
     struct Node
@@ -50,6 +50,6 @@ namespace plumbline::meshfree
 
     std::vector<Node> nodes_;
     std::vector<Link> links_;
-    FamilyStatistics statistics_;
+    FamilyStatistics<2> statistics_;
   };
 } // namespace plumbline::meshfree

@@ -54,7 +54,7 @@ namespace plumbline::meshfree
     class Assembly
     {
     public:
-      Assembly(const FamilySource &families, const StateBasedBody &body,
+      Assembly(const FamilySource<2> &families, const StateBasedBody &body,
                std::pair<std::size_t, std::size_t> share, bool keeps_dilatation)
           : cells_(*body.cells), dilatation_(body.dilatation),
             has_collar_dilatation_(body.has_collar_dilatation), keeps_dilatation_(keeps_dilatation),
@@ -203,7 +203,7 @@ namespace plumbline::meshfree
           rows->start.push_back(rows->column.size());
       }
 
-      const geometry::NodeCells &cells_;
+      const geometry::NodeCells<2> &cells_;
       const physics::Dilatation<2> &dilatation_;
       bool has_collar_dilatation_, keeps_dilatation_;
       std::pair<std::size_t, std::size_t> share_;
@@ -217,13 +217,14 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  ScatteredOperator state_based_operator(const FamilySource &families, const StateBasedBody &body,
+  ScatteredOperator state_based_operator(const FamilySource<2> &families,
+                                         const StateBasedBody &body,
                                          std::pair<std::size_t, std::size_t> share)
   {
     return Assembly(families, body, share, false).make();
   }
 
-  ScatteredOperator state_based_system(const FamilySource &families, const StateBasedBody &body)
+  ScatteredOperator state_based_system(const FamilySource<2> &families, const StateBasedBody &body)
   {
     return Assembly(families, body, {0, body.cells->n_free}, true).make();
   }

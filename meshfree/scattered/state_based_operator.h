@@ -9,7 +9,7 @@ namespace plumbline::meshfree
   /// A state-based solid on nodes. Nodes of the collar carry data, but for the ghosts.
   struct StateBasedBody
   {
-    const geometry::NodeCells *cells = nullptr; ///< Ω and a collar twice as wide as the horizon
+    const geometry::NodeCells<2> *cells = nullptr; ///< Ω and a collar twice as wide as the horizon
     physics::Dilatation<2> dilatation;
     Damage damage = {};
     /// Else θ counts as 0 in the collar. That is wrong, of first order in the horizon and the more
@@ -36,7 +36,8 @@ namespace plumbline::meshfree
   /// @throws NumericalError  a family that cannot be made; @throws InputError  a node of Ω all
   /// whose bonds are broken, naming it; a crack through a node; what data and material throw
   /// Source: Fan et al. 2022, doi:10.1016/j.cma.2022.115340, eqs. (3.17)-(3.22).
-  ScatteredOperator state_based_operator(const FamilySource &families, const StateBasedBody &body,
+  ScatteredOperator state_based_operator(const FamilySource<2> &families,
+                                         const StateBasedBody &body,
                                          std::pair<std::size_t, std::size_t> share);
 
   /// The same with θ kept: a system in u, numbered as above, then θ of the nodes of Ω and of those
@@ -45,5 +46,5 @@ namespace plumbline::meshfree
   /// (3μ) A where λ >= μ, so that A preconditions what eliminating θ yields.
   /// Not for: shares; on several ranks one gives the system to `solve_sparse` and the others
   /// nothing.
-  ScatteredOperator state_based_system(const FamilySource &families, const StateBasedBody &body);
+  ScatteredOperator state_based_system(const FamilySource<2> &families, const StateBasedBody &body);
 } // namespace plumbline::meshfree

@@ -52,8 +52,9 @@ class SpaceKernel:
 
 class SpaceProblem:
     def __init__(self, kernel: SpaceKernel, *, box: npt.ArrayLike, h: float,
-                 exclude: Optional[npt.ArrayLike] = ..., load: Any = ..., constraint: Any = ...,
-                 solution: Any = ..., lame: Optional[npt.ArrayLike] = ...) -> None: ...
+                 nodes: Optional[npt.ArrayLike] = ..., exclude: Optional[npt.ArrayLike] = ...,
+                 load: Any = ..., constraint: Any = ..., solution: Any = ...,
+                 lame: Optional[npt.ArrayLike] = ...) -> None: ...
     @property
     def h(self) -> float: ...
     @property
@@ -147,6 +148,9 @@ def moduli_json(names: str, rules: Sequence[Rule], m: Sequence[str], E: float, s
 def moduli_arrays(kernel: Kernel, w: npt.ArrayLike, xi: npt.ArrayLike, i: npt.ArrayLike,
                   points: npt.ArrayLike, state: str) -> Dict[str, Any]: ...
 def solve_in_space(problem: SpaceProblem, method: str) -> SpaceSolution: ...
+def node_weights_in_space(rule: str, kernel: SpaceKernel, nodes: npt.ArrayLike,
+                          volumes: Optional[npt.ArrayLike], box: npt.ArrayLike,
+                          exclude: Optional[npt.ArrayLike], h: float) -> Dict[str, Any]: ...
 def check_in_space(nodes: npt.ArrayLike, volumes: npt.ArrayLike, i: npt.ArrayLike,
                    j: npt.ArrayLike, w: npt.ArrayLike, kernel: SpaceKernel, box: npt.ArrayLike,
                    points: Optional[npt.ArrayLike], meant: Sequence[str],

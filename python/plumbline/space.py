@@ -6,16 +6,28 @@ from ._core import SpaceKernel as Kernel, SpaceProblem as Problem, SpaceSolution
 __all__ = ["Kernel", "Problem", "Solution", "check", "solve", "weights"]
 
 
-def weights(rule, kernel, h):
-    """The bonds that a rule gives to every node of a lattice of cubes.
+def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None):
+    """The bonds that a rule gives to every node of a lattice of cubes, or to scattered nodes.
 
     rule    a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...)
     kernel  a space.Kernel
-    h       spacing of the nodes [length]
+    h       spacing of a lattice; with nodes the side of cubes that fill the box [length]
+    nodes   shape (n, 3) [length], in the box (free) and within a horizon around it
+    volumes of the nodes' cells, shape (n,) [length^3]; default: those of their Voronoi cells
+    box     the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of boxes; exclude is taken out of it
 
-    Returns Weights: w of shape (n,) [length^3], points and xi of shape (n, 3) [length], area (here
-    the volume of the neighbour's cell or of its part in the ball), offsets = xi / h.
+    Returns Weights: w of shape (n_bonds,) [length^3], points and xi of shape (n_bonds, 3) [length],
+    area (here the volume of the neighbour's cell or of its part in the ball); of a lattice offsets
+    = xi / h, of scattered nodes i (free) and j, indices of nodes.
     """
+    if nodes is not None:
+        if box is None:
+            raise _core.InputError("weights: nodes need box, the domain whose nodes are free, e.g. "
+                                   "box=((0, 0, 0), (1, 1, 1))")
+        made = _core.node_weights_in_space(rule, kernel, nodes, volumes, box, exclude, h)
+        return Weights(made["i"], made["j"], made["w"], made["points"], made["xi"], made["area"])
+    if volumes is not None or box is not None or exclude is not None:
+        raise _core.InputError("weights: volumes, box and exclude are for nodes; give those, too")
     made = _core.lattice_weights(rule, kernel, h)
     return Weights(None, None, made["w"], made["points"], made["xi"], made["area"], made["offsets"])
 

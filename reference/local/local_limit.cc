@@ -260,7 +260,7 @@ namespace plumbline::reference
           constrained_matrix_; ///< of all unknowns; the boundary's constrained
       std::shared_ptr<const MeshSpace> space_;
       std::shared_ptr<const MeshCells> cells_;
-      std::shared_ptr<const geometry::NodeCells> averaged_;
+      std::shared_ptr<const geometry::NodeCells<2>> averaged_;
     };
   } // namespace
 

@@ -343,7 +343,8 @@ namespace plumbline::reference
     return size.n_free * n_dofs * n_components * n_columns * of_entry + size.n_cells * of_cell;
   }
 
-  method::Field as_field(std::shared_ptr<const MeshField> field, const geometry::NodeCells &cells)
+  method::Field as_field(std::shared_ptr<const MeshField> field,
+                         const geometry::NodeCells<2> &cells)
   {
     method::Field result;
     const unsigned int nc = field->n_components;

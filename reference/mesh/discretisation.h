@@ -24,5 +24,6 @@ namespace plumbline::reference
                              bool is_continuous, unsigned int degree);
 
   /// The view of a field that a study compares.
-  method::Field as_field(std::shared_ptr<const MeshField> field, const geometry::NodeCells &cells);
+  method::Field as_field(std::shared_ptr<const MeshField> field,
+                         const geometry::NodeCells<2> &cells);
 } // namespace plumbline::reference

@@ -28,7 +28,7 @@ namespace plumbline::reference
     return on_cell(*this, cell, phi, component);
   }
 
-  std::vector<double> MeshField::averages(const geometry::NodeCells &nodes) const
+  std::vector<double> MeshField::averages(const geometry::NodeCells<2> &nodes) const
   {
     const CellShapes &shapes = space->shapes();
     std::vector<double> result(nodes.n_free * n_components);

@@ -23,7 +23,7 @@ namespace plumbline::reference
     /// Averages over the cells of the free nodes, shape (n_free, n_components): the pieces that the
     /// mesh's cells cut out of them are integrated exactly (on cells with a bilinear map, to the
     /// degree of the rule).
-    std::vector<double> averages(const geometry::NodeCells &nodes) const;
+    std::vector<double> averages(const geometry::NodeCells<2> &nodes) const;
   };
 
   /// √ ∫_Ω |u|² of a field; the L2 distance of two fields is that of their difference.

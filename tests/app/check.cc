@@ -69,8 +69,8 @@ TEST(Check, its_example_is_what_the_library_makes)
   scene.domain.mesh.name = "squares";
   scene.methods.nodes.name = nodes_file;
   const auto problem = scene::make_problem(scene, 0, scene.study.series[0].levels[0]);
-  const meshfree::Families families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
-                                    *problem.cells(), meshfree::Backend::fast);
+  const meshfree::Families<2> families(meshfree::recalibrated(problem.kernel, 2), problem.kernel,
+                                       *problem.cells(), meshfree::Backend::fast);
   meshfree::Family<2> family;
   std::ifstream good(bonds_file), wrong(folder / "bonds_wrong.csv");
   std::string row, wrong_row;

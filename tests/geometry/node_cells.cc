@@ -18,7 +18,7 @@ namespace
 
   /// Areas add up and agree with the pieces; every piece is nearer to its node than to any other
   /// node of its side.
-  void expect_voronoi(const NodeCells &cells, const Mesh &mesh)
+  void expect_voronoi(const NodeCells<2> &cells, const Mesh &mesh)
   {
     double sum[2] = {0, 0};
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -56,7 +56,7 @@ TEST(VoronoiCells, of_lattice_nodes_are_the_squares)
   for (const Domain &domain : {unit, l_shape, with_hole})
   {
     const Mesh mesh = lattice_mesh(domain, .125, .25, true);
-    const NodeCells cells = voronoi_cells(lattice_nodes(mesh, .125, 0, 1), mesh);
+    const NodeCells<2> cells = voronoi_cells(lattice_nodes(mesh, .125, 0, 1), mesh);
     EXPECT_EQ(cells.size(), mesh.cells.size() / 2);
     for (std::size_t i = 0; i < cells.size(); ++i)
     {
@@ -86,7 +86,7 @@ TEST(VoronoiCells, of_moved_nodes_tile_domain_and_collar)
 TEST(VoronoiCells, that_no_boundary_cuts_are_one_piece)
 {
   const Mesh mesh = lattice_mesh(unit, .125, .25, true);
-  const NodeCells cells = voronoi_cells(lattice_nodes(mesh, .1, .2, 1), mesh);
+  const NodeCells<2> cells = voronoi_cells(lattice_nodes(mesh, .1, .2, 1), mesh);
   std::size_t n_whole = 0;
   for (std::size_t i = 0; i < cells.n_free; ++i)
   {
@@ -105,7 +105,7 @@ TEST(VoronoiCells, keep_order_and_put_the_domain_first)
   const Mesh mesh = lattice_mesh(unit, .25, .25, false);
   const std::vector<Point<2>> nodes{
       {-.1, .1}, {.9, .9}, {1, .5}, {1.1, .2}, {.2, .3}}; // 2 is on ∂Ω
-  const NodeCells cells = voronoi_cells(nodes, mesh);
+  const NodeCells<2> cells = voronoi_cells(nodes, mesh);
   EXPECT_EQ(cells.n_free, 3u);
   EXPECT_EQ(cells.source, (std::vector<std::size_t>{1, 2, 4, 0, 3}));
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -127,7 +127,7 @@ TEST(VoronoiCells, of_nodes_nearly_in_one_place_far_from_the_origin_tile)
   std::vector<Point<2>> nodes;
   for (const auto &node : lattice_nodes(mesh, .1, .3, 1))
     nodes.insert(nodes.end(), {node, node + Point<2>(1e-11, 1e-12)});
-  const NodeCells cells = voronoi_cells(nodes, mesh);
+  const NodeCells<2> cells = voronoi_cells(nodes, mesh);
   double sum = 0;
   for (const double a : cells.area)
     sum += a;
@@ -141,7 +141,7 @@ TEST(VoronoiCells, of_nodes_on_a_circle_are_sectors)
   std::vector<Point<2>> nodes{{1.2, 0}};
   for (int k = 0; k < 8; ++k)
     nodes.emplace_back(.5 * std::cos((k + .5) * M_PI / 4), .5 * std::sin((k + .5) * M_PI / 4));
-  const NodeCells cells = voronoi_cells(nodes, mesh);
+  const NodeCells<2> cells = voronoi_cells(nodes, mesh);
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_NEAR(cells.area[i], .5, 1e-14);
   expect_voronoi(cells, mesh);
@@ -207,7 +207,7 @@ TEST(LatticeNodes, stay_on_their_side)
   const Mesh mesh = lattice_mesh(l_shape, .25, .5, true, bend);
   const auto at_rest = lattice_nodes(mesh, .1, 0, 1), moved = lattice_nodes(mesh, .1, 3, 1);
   ASSERT_EQ(moved.size(), at_rest.size());
-  const NodeCells before = voronoi_cells(at_rest, mesh), after = voronoi_cells(moved, mesh);
+  const NodeCells<2> before = voronoi_cells(at_rest, mesh), after = voronoi_cells(moved, mesh);
   EXPECT_EQ(before.source, after.source);
   EXPECT_EQ(before.n_free, after.n_free);
 }

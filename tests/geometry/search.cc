@@ -50,7 +50,7 @@ namespace plumbline::geometry
       return found;
     }
 
-    Found found(const BoxSearch &search, const Box &box)
+    Found found(const BoxSearch<2> &search, const Box &box)
     {
       Found result;
       search.find(box, result);
@@ -83,7 +83,7 @@ namespace plumbline::geometry
     std::size_t expect_none_missed(const std::vector<Box> &boxes, unsigned int seed)
     {
       Random random(seed);
-      const BoxSearch search(boxes);
+      const BoxSearch<2> search(boxes);
       std::size_t n_found = 0;
       for (const Box &box : queries(boxes, random))
       {
@@ -112,7 +112,7 @@ namespace plumbline::geometry
         boxes.push_back(
             {Point<2>(-1 + i * .05, 3 + j * .05), Point<2>(-1 + (i + 1) * .05, 3 + (j + 1) * .05)});
     EXPECT_GT(expect_none_missed(boxes, 3), 10000u);
-    const BoxSearch search(boxes);
+    const BoxSearch<2> search(boxes);
     EXPECT_EQ(found(search, {Point<2>(-.99, 3.01), Point<2>(-.94, 3.02)}), (Found{0, 1}));
     EXPECT_EQ(search.box(121).lower, Point<2>(-1 + .05, 3 + .05));
   }
@@ -163,12 +163,12 @@ namespace plumbline::geometry
 
   TEST(BoxSearch, FindsNothingAmongNone)
   {
-    EXPECT_TRUE(found(BoxSearch({}), {Point<2>(-1, -1), Point<2>(1, 1)}).empty());
+    EXPECT_TRUE(found(BoxSearch<2>({}), {Point<2>(-1, -1), Point<2>(1, 1)}).empty());
   }
 
   TEST(BoxSearch, OverwritesWhatWasFoundBefore)
   {
-    const BoxSearch search({{Point<2>(0, 0), Point<2>(1, 1)}});
+    const BoxSearch<2> search({{Point<2>(0, 0), Point<2>(1, 1)}});
     Found result{7, 8, 9};
     search.find({Point<2>(.5, .5), Point<2>(2, 2)}, result);
     EXPECT_EQ(result, Found{0});
@@ -182,7 +182,7 @@ namespace plumbline::geometry
     std::vector<Box> boxes;
     for (int i = 0; i < 2000; ++i)
       boxes.push_back(random.box(.05));
-    const BoxSearch search(boxes);
+    const BoxSearch<2> search(boxes);
     std::vector<std::size_t> n_found(4, 0);
     std::vector<std::thread> threads;
     for (std::size_t &n : n_found)
@@ -208,7 +208,7 @@ namespace plumbline::geometry
           Box{Point<2>(0, 0), Point<2>(huge, 1)}})
       try
       {
-        BoxSearch({good, bad});
+        BoxSearch<2>({good, bad});
         ADD_FAILURE() << "no error for " << bad.lower << " to " << bad.upper;
       }
       catch (const InputError &error)

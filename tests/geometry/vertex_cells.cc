@@ -82,7 +82,7 @@ TEST(VertexCells, TileABodyOfAnyShape)
   {
     const Point<2> origin(.01, -.02);
     const VertexCells body = vertex_cells(shared, origin, h, {});
-    const NodeCells &cells = *body.cells;
+    const NodeCells<2> &cells = *body.cells;
     EXPECT_NEAR(std::accumulate(cells.area.begin(), cells.area.end(), 0.), area_of_mesh, 1e-13);
     EXPECT_EQ(cells.n_free, cells.size());
     Point<2> centroid_of_cells;
@@ -132,7 +132,7 @@ TEST(VertexCells, BodiesThatCannotStandAreRefused)
 TEST(VertexSquares, BoundaryVerticesAreData)
 {
   const Domain l_shape{{{Point<2>(0, 0), Point<2>(1, 1)}}, {{Point<2>(.5, .5), Point<2>(1, 1)}}};
-  const NodeCells cells = vertex_squares(Lattice(l_shape, .25), .5);
+  const NodeCells<2> cells = vertex_squares(Lattice(l_shape, .25), .5);
   EXPECT_EQ(cells.n_free, 5u); // of 3 × 3 inner ones, less those around the re-entrant corner
   for (std::size_t i = 0; i < cells.size(); ++i)
     EXPECT_NEAR(cells.area[i], .0625, 1e-15);

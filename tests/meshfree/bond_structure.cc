@@ -325,7 +325,7 @@ TEST(Outliers, are_none_of_families_whose_moments_are_exact)
   // weights recalibrated around one node that is moved: right, and unlike all others
   const auto problem = nodes_for(3, 0, "linear-decay");
   problem::Problem<2> moved = problem;
-  auto cells = std::make_shared<geometry::NodeCells>(*problem.cells());
+  auto cells = std::make_shared<geometry::NodeCells<2>>(*problem.cells());
   cells->nodes[27] += dealii::Tensor<1, 2>({.02, -.015});
   moved.on_mesh()->cells = cells;
   const Weights exact = weights_of("IPA-AC-R2", moved);

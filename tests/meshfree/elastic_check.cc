@@ -28,7 +28,7 @@ namespace
   std::vector<Family<2>> families_of(const NeighbourhoodQuadrature<2> &rule,
                                      const problem::Problem<2> &problem)
   {
-    const Families families(rule, problem.kernel, *problem.cells(), Backend::fast);
+    const Families<2> families(rule, problem.kernel, *problem.cells(), Backend::fast);
     std::vector<Family<2>> all(families.size());
     for (std::size_t i = 0; i < all.size(); ++i)
       families.make(i, all[i]);

@@ -45,14 +45,14 @@ namespace
                          [&](const Rule &rule) { return rule.name == name; });
   }
 
-  Families make_families(const std::string &name, const problem::Problem<2> &problem)
+  Families<2> make_families(const std::string &name, const problem::Problem<2> &problem)
   {
     return {rule(name).in_plane(problem.kernel), problem.kernel, *problem.cells(), Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
   /// ∫ |C| |ξ|^|α|, which δ^(|α| - 2) stands for.
-  double moment_defect(const Families &families, int degree)
+  double moment_defect(const Families<2> &families, int degree)
   {
     const Kernel<2> &kernel = families.kernel();
     double worst = 0;
@@ -76,7 +76,7 @@ namespace
   }
 
   /// L_h u at the free nodes for the u that the constraint is.
-  std::vector<double> apply(const Families &families, const problem::Problem<2> &problem)
+  std::vector<double> apply(const Families<2> &families, const problem::Problem<2> &problem)
   {
     const auto matrix = scattered_operator(families, problem, {0, families.size()});
     std::vector<double> result(matrix.rows.free.n_rows());
@@ -353,7 +353,7 @@ TEST(ScatteredMethods, fields_take_the_value_of_the_nearest_node)
 TEST(ScatteredField, averages_of_linear_fields_are_their_values_at_the_centroids)
 {
   const auto problem = make_problem(.3, false, .125, 3);
-  const geometry::NodeCells &cells = *problem.cells();
+  const geometry::NodeCells<2> &cells = *problem.cells();
   const auto field = [](const Point<2> &x) { return 1 + 2 * x[0] - 5 * x[1]; };
   std::vector<double> values;
   double farthest = 0;

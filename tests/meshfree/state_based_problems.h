@@ -18,7 +18,7 @@ namespace plumbline::meshfree
   struct Square
   {
     double h, horizon;
-    geometry::NodeCells cells; ///< squares about lattice nodes
+    geometry::NodeCells<2> cells; ///< squares about lattice nodes
 
     /// @param offset  of nodes from the multiples of h, in h: 0 on the boundary, ½ in cells
     Square(double h, double half_width, double offset, double m = 3) : h(h), horizon(m * h)
@@ -138,7 +138,7 @@ namespace plumbline::meshfree
     const StateBasedProblem &problem;
     const Square &square;
     StateBasedBody body;
-    Families families;
+    Families<2> families;
 
     StateBasedCase(const StateBasedProblem &problem, const Square &square,
                    const std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> &rule =

@@ -76,7 +76,7 @@ namespace
       for (std::size_t i = 0; i < net.nodes.size(); ++i)
         if ((net.grip[i] < 0) == is_free)
           order.push_back(i);
-    geometry::NodeCells cells;
+    geometry::NodeCells<2> cells;
     std::map<std::array<long, 2>, unsigned int> number;
     const auto outside = [](const Point<2> &x) {
       return std::max({-x[0], x[0] - length, std::abs(x[1]) - half});

@@ -144,3 +144,44 @@ def test_kernels_have_their_moments():
 def test_bad_input_is_refused(call, words):
     with pytest.raises(ValueError, match=words):
         call(space.Kernel("linear-decay", .5))
+
+
+def moved_nodes():
+    """Centres of the unit cube's cubes and of those around it, moved by up to .3 h."""
+    k = np.arange(-3, n + 3)
+    at = np.array(list(itertools.product(k, k, k))) + .5
+    return (at + np.random.default_rng(1).uniform(-.3, .3, at.shape)) * h
+
+
+def test_weights_of_scattered_nodes_have_their_moments_and_pass_the_check():
+    kernel = space.Kernel("linear-decay", m * h, diffusion=.5)
+    nodes, box = moved_nodes(), ((0, 0, 0), (1, 1, 1))
+    made = space.weights("IPA-AC-R2", kernel, h, nodes=nodes, box=box)
+    assert len(np.unique(made.i)) == n**3
+    assert made.xi == pytest.approx(nodes[made.j] - nodes[made.i])
+    r = np.linalg.norm(made.xi, axis=1)
+    for a in range(3):
+        moments = np.bincount(made.i, 15 / (np.pi * (m * h)**5) * 3 / 2 * (1 - r / (m * h))
+                              * made.w * made.xi[:, a]**2)
+        free = np.unique(made.i)
+        assert moments[free] == pytest.approx(np.full(n**3, moments[free[0]]), rel=1e-9)
+    found = space.check(nodes, np.full(len(nodes), h**3), made.i, made.j, made.w, kernel, box=box)
+    assert found["is_ac"]
+    plain = space.weights("FA", kernel, h, nodes=nodes, box=box, volumes=np.full(len(nodes), h**3))
+    assert plain.w == pytest.approx(np.full(len(plain.w), h**3))
+
+
+def test_problems_on_scattered_nodes_are_solved_exactly_where_moments_are_exact():
+    kernel = space.Kernel("bond-tensor", 3 * h, bulk_modulus=1)
+    k = np.arange(-4, n + 4)
+    at = np.array(list(itertools.product(k, k, k))) + .5
+    nodes = (at + np.random.default_rng(1).uniform(-.3, .3, at.shape)) * h
+    problem = space.Problem(kernel, box=((0, 0, 0), (1, 1, 1)), h=h, nodes=nodes,
+                            solution="x^2 - y*z, x*y + z, z^2 - x")
+    solved = space.solve(problem, "IPA-AC-R2")
+    x, y, z = solved.nodes.T
+    assert solved.values == pytest.approx(np.column_stack([x**2 - y*z, x*y + z, z**2 - x]))
+    assert space.solve(problem, "FA").values != pytest.approx(solved.values, rel=1e-3)
+    with pytest.raises(ValueError, match="nodes end at x"):
+        space.Problem(kernel, box=((0, 0, 0), (1, 1, 1)), h=h, nodes=nodes[nodes[:, 0] > -.1],
+                      solution="x, y, z")

@@ -8,6 +8,7 @@
 #include "tests/study/space_scene.h"
 
 #include <cmath>
+#include <fstream>
 #include <map>
 
 namespace
@@ -312,6 +313,14 @@ TEST(StateBasedInSpace, are_judged_by_the_moments_of_bonds_and_dilatation)
                                                                    {"OPT", "AC"},
                                                                    {"Q1", "AC"},
                                                                    {"DGQ0", "not AC"}}));
+  bool is_said = false;
+  for (const auto &omission : results.omissions)
+    if (omission.what == "the dilatation as an unknown")
+    {
+      is_said = true;
+      EXPECT_EQ(omission.saving.find("a quarter of the unknowns"), 0u) << omission.saving;
+    }
+  EXPECT_TRUE(is_said);
 }
 
 TEST(StateBasedInSpace, of_equal_constants_are_bonds_alone)
@@ -404,4 +413,149 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
     EXPECT_NE(message_of(settings).find(words), std::string::npos)
         << settings.back().key << ": " << message_of(settings);
   EXPECT_EQ(message_of({}), "");
+}
+
+namespace
+{
+  const Settings scattered = {{"Methods/perturbation", "0.3"},
+                              {"Problem/solution", "sin(2*x + y)*cos(y - z)"},
+                              {"Study/h", "1/4, 1/8"},
+                              {"Study/norms", "nodal Linf, nodal L2, averages L2"}};
+
+  /// A file of the centres of cubes of 1/8 in the unit cube and within a margin of it.
+  std::string write_centres(const Folder &folder, double margin)
+  {
+    constexpr int n = 8, n_layers = 8;
+    std::ofstream out((folder.path() / "nodes.csv").string());
+    out.precision(17);
+    out << "x,y,z\n";
+    const auto at = [](int i) { return (i + .5) / n; };
+    const auto is_near = [&](int i) { return at(i) > -margin && at(i) < 1 + margin; };
+    for (int k = -n_layers; k < n + n_layers; ++k)
+      for (int j = -n_layers; j < n + n_layers; ++j)
+        for (int i = -n_layers; i < n + n_layers; ++i)
+          if (is_near(i) && is_near(j) && is_near(k))
+            out << at(i) << ',' << at(j) << ',' << at(k) << '\n';
+    return (folder.path() / "nodes.csv").string();
+  }
+} // namespace
+
+TEST(ScatteredNodesInSpace, at_the_centres_of_cubes_give_the_lattices_numbers)
+{
+  const Folder folder;
+  for (const std::string &kernel : {"linear-decay", "bond-tensor"})
+  {
+    const Settings settings = {
+        {"Kernel/type", kernel},
+        {"Kernel/limit", kernel == "bond-tensor" ? "Navier" : "half Laplace"},
+        {"Problem/solution",
+         kernel == "bond-tensor" ? "x^3*y^2 + z^4, y^2*z^3 + x*z, x^2*y*z + y^3" : polynomial},
+        {"Methods/names", "FA, LAMMPS, QWJ, PA-AC, IPA-AC, IPA-AC-R2, OPT"},
+        {"Study/norms", "nodal Linf, nodal L2, averages L2"},
+        {"Study/m", "2.7"},
+        {"Study/h", "1/8"}};
+    const auto lattice = run(make_scene(settings));
+    const auto nodes =
+        run(make_scene(with(settings, {{"Methods/nodes", write_centres(folder, .6)}})));
+    ASSERT_EQ(nodes.records.size(), lattice.records.size());
+    for (std::size_t i = 0; i < nodes.records.size(); ++i)
+    {
+      ASSERT_EQ(nodes.records[i].failure, "") << nodes.records[i].key.method;
+      for (const std::string &error :
+           {"nodal Linf | exact", "nodal L2 | exact", "averages L2 | exact"})
+        EXPECT_NEAR(nodes.records[i][error] / lattice.records[i][error], 1, 1e-7)
+            << nodes.records[i].key.method << " " << error;
+    }
+  }
+}
+
+TEST(ScatteredNodesInSpace, show_which_rules_keep_the_local_limit)
+{
+  const auto results =
+      run(make_scene(with(scattered, {{"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2, Q1"},
+                                      {"Study/h", "1/4, 1/8, 1/16"},
+                                      {"Study/decisive error", "nodal L2 | exact"}})));
+  std::map<std::string, std::string> found;
+  for (const Trend &trend : results.trends)
+    if (trend.error == "nodal L2 | exact")
+      found[trend.method] = trend.verdict;
+  EXPECT_EQ(found, (std::map<std::string, std::string>{{"FA", "not AC"},
+                                                       {"PA-AC", "not AC"},
+                                                       {"IPA-AC", "not AC"},
+                                                       {"IPA-AC-R2", "AC"},
+                                                       {"Q1", "AC"}}));
+  std::map<std::string, std::vector<double>> averages;
+  for (const Record &record : results.records)
+    averages[record.key.method].push_back(record["averages L2 | exact"]);
+  EXPECT_LT(averages["IPA-AC-R2"][2], .35 * averages["IPA-AC-R2"][1]); // of second order
+  EXPECT_GT(averages["IPA-AC"][2], 5 * averages["IPA-AC-R2"][2]);
+}
+
+TEST(ScatteredNodesInSpace, leave_galerkin_methods_as_they_are)
+{
+  const Settings q1 = {{"Methods/names", "Q1"}};
+  const auto moved = run(make_scene(with(scattered, q1)));
+  const auto fixed = run(make_scene(with(with(scattered, q1), {{"Methods/perturbation", "0"}})));
+  for (std::size_t i = 0; i < fixed.records.size(); ++i)
+    EXPECT_EQ(moved.records[i]["averages L2 | exact"], fixed.records[i]["averages L2 | exact"]);
+}
+
+TEST(ScatteredNodesInSpace, of_recalibrated_weights_solve_quadratics_exactly)
+{
+  for (const std::string &boxes : {"0,0,0 : 1,1,1", "0,0,0 : 1,1/2,1; 0,0,0 : 1/2,1,1/2"})
+  {
+    const auto results = run(
+        make_scene(with(scattered, {{"Domain/boxes", boxes},
+                                    {"Problem/solution", "x^2 - 2*y*z + z, x*y + z^2, y^2 - x*z"},
+                                    {"Kernel/type", "bond-tensor"},
+                                    {"Kernel/limit", "Navier"},
+                                    {"Study/h", "1/8"},
+                                    {"Methods/names", "IPA-AC-R2, OPT, FA"}})));
+    for (const Record &record : results.records)
+    {
+      ASSERT_EQ(record.failure, "") << record.key.method;
+      if (record.key.method == "FA")
+        EXPECT_GT(record["nodal Linf | exact"], 1e-3);
+      else
+        EXPECT_LT(record["nodal Linf | exact"], 1e-10) << record.key.method << " " << boxes;
+    }
+  }
+}
+
+TEST(ScatteredNodesInSpace, that_cannot_be_used_are_refused)
+{
+  const Folder folder;
+  const auto expect = [](const Settings &settings, const std::vector<std::string> &parts)
+  {
+    std::string message = message_of(settings);
+    if (message.empty())
+      try
+      {
+        check_data(make_scene(settings));
+      }
+      catch (const InputError &error)
+      {
+        message = error.what();
+      }
+    for (const std::string &part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << " | " << message;
+  };
+  expect({{"Methods/nodes", "vertices"}}, {"Methods/nodes = vertices", "write centres"});
+  expect({{"Methods/nodes", "cetres"}}, {"'cetres' is not known"});
+  expect({{"Methods/perturbation", "0.5"}}, {"Methods/perturbation", "0.5"});
+  expect(with(lps, {{"Methods/perturbation", "0.3"}}), {"Methods/perturbation", "LPS"});
+  expect({{"Methods/perturbation", "0.3"}, {"Time/final time", "1"}, {"Time/steps", "0.1"}},
+         {"Methods/perturbation", "motion"});
+  expect({{"Methods/nodes", write_centres(folder, .2)}, {"Study/h", "1/8"}},
+         {"nodes.csv", "nodes end at x = -0.1875", "horizon = 0.375"});
+  expect({{"Methods/nodes", (folder.path() / "none.csv").string()}}, {"none.csv"});
+  std::ofstream((folder.path() / "flat.csv").string()) << "x,y\n0,0\n";
+  expect({{"Methods/nodes", (folder.path() / "flat.csv").string()}}, {"flat.csv", "z"});
+  {
+    std::ifstream in(write_centres(folder, .6));
+    std::ofstream out((folder.path() / "twice.csv").string());
+    out << in.rdbuf() << "0.0625,0.0625,0.0625\n";
+  }
+  expect({{"Methods/nodes", (folder.path() / "twice.csv").string()}, {"Study/h", "1/8"}},
+         {"twice.csv", "take one of them out"});
 }

@@ -197,11 +197,11 @@ TEST(LimitProof, of_broken_bonds_proves_nothing_but_keeps_wrong_moments)
 namespace
 {
   /// A bias that the trace of second moments does not see.
-  meshfree::MomentBias::Answer
+  meshfree::MomentBias<2>::Answer
   bias_of(const std::function<std::vector<double>(double x, double y)> &defects, unsigned int n,
           std::size_t n_bonds = 28)
   {
-    meshfree::MomentBias bias({0, 0}, {1, 1});
+    meshfree::MomentBias<2> bias({0, 0}, {1, 1});
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         bias.add({(i + .5) / n, (j + .5) / n}, defects((i + .5) / n, (j + .5) / n), n_bonds);

@@ -29,11 +29,12 @@ namespace plumbline::scene
     keys.add("nodes", nodes.name,
              "Meshfree nodes: centres of lattice cells, vertices (of a lattice, with constrained "
              "nodes on the boundary), mesh (centroids of mesh cells), or a .csv file with columns "
-             "x and y; {h} in its name selects one file for each level (pd_{h}.csv: pd_0.05.csv at "
-             "h = 0.05). On meshes the node cells are Voronoi cells.");
+             "x and y, in three dimensions x, y and z; {h} in its name selects one file for each "
+             "level (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes, and on scattered nodes in "
+             "three dimensions, the node cells are Voronoi cells.");
     keys.add("perturbation", nodes.perturbation, between(0, .49),
-             "Random displacement of centres by up to this multiple of h in x and in y "
-             "(Geometry/seed). Needs a mesh.");
+             "Random displacement of centres by up to this multiple of h along each axis "
+             "(Geometry/seed). Needs a mesh, or Domain/dimension = 3.");
     keys.add("load", loads_are_averages, "nodes", "cells",
              "Right-hand sides of meshfree methods: the load at the nodes, or its averages over "
              "the node cells.");

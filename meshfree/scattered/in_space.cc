@@ -1,0 +1,97 @@
+#include "meshfree/discretisations.h"
+#include "meshfree/rules/families.h"
+#include "meshfree/scattered/field.h"
+#include "method/limit_proof.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <utility>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// A sparse matrix with one row for each component of a node.
+    class RuleOnNodes : public method::DiscretisationInSpace
+    {
+    public:
+      RuleOnNodes(const Families<3> &families, const problem::Problem<3> &problem)
+          : cells_(problem.cells), lattice_(problem.lattice), n_components_(problem.n_components)
+      {
+        FamilyStatistics<3> statistics(*cells_, problem.settings.ball_order);
+        method::PartitionedRows rows = method::part(
+            bond_rows<3>([&](std::size_t i, Family<3> &family) { families.make(i, family); },
+                         problem.kernel, n_components_, {0, cells_->n_free},
+                         [&](std::size_t i, const Family<3> &family, std::vector<double> &)
+                         { statistics.add(problem.kernel, cells_->nodes[i], family); }),
+            n_unknowns());
+        free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
+        constrained_ = std::move(rows.constrained);
+        diagnostics_ = statistics.diagnostics(base::Communicator::alone());
+        diagnostics_.limit = method::limit_of(problem, diagnostics_.limit);
+        options_.is_symmetric = false; // a bond has two weights, one for each end
+        options_.n_components = n_components_;
+        options_.solver = problem.settings.solver.linear_solver;
+        options_.iteration = problem.settings.solver.iteration;
+      }
+
+      std::size_t n_unknowns() const override { return cells_->n_free * n_components_; }
+
+      Data data(const problem::Problem<3> &problem) const override
+      {
+        Data result;
+        result.load.reinit(static_cast<unsigned int>(n_unknowns()));
+        for (std::size_t i = 0; i < cells_->n_free; ++i)
+          for (unsigned int c = 0; c < n_components_; ++c)
+            result.load[i * n_components_ + c] = problem.load(cells_->nodes[i], c);
+        std::vector<double> constrained;
+        for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
+          for (unsigned int c = 0; c < n_components_; ++c)
+            constrained.push_back(problem.constraint.value(cells_->nodes[i], c));
+        method::subtract_constrained(constrained_, constrained, result.load);
+        result.field = [this](const Vector &u) { return field(u); };
+        return result;
+      }
+
+      std::unique_ptr<algebra::LinearSystem> tangent() const override
+      {
+        return std::make_unique<algebra::SparseSystem>(free_, options_,
+                                                       base::Communicator::alone());
+      }
+
+      method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+    private:
+      method::FieldInSpace field(const Vector &u) const
+      {
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        method::FieldInSpace result;
+        result.nodes.assign(cells_->nodes.begin(), cells_->nodes.begin() + n);
+        result.volumes.assign(cells_->area.begin(), cells_->area.begin() + n);
+        result.nodal.assign(u.begin(), u.end());
+        const auto field =
+            std::make_shared<const NodalFieldInSpace>(cells_, result.nodal, n_components_);
+        result.averages = field->averages(lattice_);
+        result.value = [field](const Point<3> &x, unsigned int c) { return field->value(x, c); };
+        return result;
+      }
+
+      std::shared_ptr<const geometry::NodeCells<3>> cells_;
+      geometry::CubeLattice lattice_;
+      unsigned int n_components_;
+      std::shared_ptr<const algebra::CsrMatrix> free_;
+      algebra::CsrMatrix constrained_;
+      algebra::SparseOptions options_;
+      method::Diagnostics diagnostics_;
+    };
+  } // namespace
+
+  std::unique_ptr<method::DiscretisationInSpace>
+  discretise_on_nodes(const Rule &rule, const problem::Problem<3> &problem)
+  {
+    return std::make_unique<RuleOnNodes>(Families<3>(rule.in_space(problem.kernel), problem.kernel,
+                                                     *problem.cells,
+                                                     problem.settings.geometry.backend),
+                                         problem);
+  }
+} // namespace plumbline::meshfree
