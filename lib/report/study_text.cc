@@ -73,7 +73,7 @@ namespace plumbline::report
     }
 
     /// "stable: FA, Q1; unstable: OPT", with series or quantities where there are several.
-    std::string answer_of(const Table &verdicts)
+    std::string methods_by_verdict(const Table &verdicts)
     {
       const std::size_t method = column(verdicts, "method"), verdict = column(verdicts, "verdict"),
                         n = verdicts.columns.size(),
@@ -129,6 +129,15 @@ namespace plumbline::report
     }
   } // namespace
 
+  std::string answer_of(const View &view)
+  {
+    std::string answer = view.answer.empty() ? methods_by_verdict(view.verdicts) : view.answer;
+    for (const Part &part : view.parts)
+      if (answer.empty())
+        answer = methods_by_verdict(part.table);
+    return answer;
+  }
+
   std::string study_text(const View &view, const StudyResults &results)
   {
     std::string text = results.scene_name + "\n";
@@ -182,11 +191,7 @@ namespace plumbline::report
     for (const std::string &line : missed(results, most_missed))
       end.push_back(fitted(line, n_columns));
     end.push_back("report: " + files);
-    std::string answer = view.answer.empty() ? answer_of(view.verdicts) : view.answer;
-    for (const Part &part : view.parts)
-      if (answer.empty())
-        answer = answer_of(part.table);
-    if (!answer.empty())
+    if (const std::string answer = answer_of(view); !answer.empty())
     {
       const Lines words = short_lines(answer, most_words);
       end.emplace_back();

@@ -368,7 +368,7 @@ namespace plumbline::report
       if (!results.is_complete)
         facts.emplace_back(page::interrupted);
       Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
-      data["answer"] = view.answer;
+      data["answer"] = answer_of(view);
       data["model"] = view.model;
       data["scene_text"] = results.scene_text;
       data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};
@@ -406,8 +406,8 @@ namespace plumbline::report
     std::string markdown(const View &view, const StudyResults &results)
     {
       std::string text = "# " + view.title + ": " + results.scene_name + "\n\n";
-      if (!view.answer.empty())
-        text += view.answer + "\n\n";
+      if (const std::string answer = answer_of(view); !answer.empty())
+        text += answer + "\n\n";
       for (const std::string &warning : results.warnings)
         text += "Warning: " + warning + ".\n\n";
       if (!view.verdicts.rows.empty())

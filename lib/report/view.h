@@ -122,6 +122,10 @@ namespace plumbline::report
   /// Those of a series, in the order of the records.
   std::vector<std::string> series_of(const StudyResults &results);
 
+  /// The answer of the view; if it has none, the methods of each verdict, of `verdicts` or else of
+  /// the first part with verdicts: "stable: FA, Q1; unstable: OPT".
+  std::string answer_of(const View &view);
+
   /// All tables but for details, with their words.
   std::string study_text(const View &view, const StudyResults &results);
 

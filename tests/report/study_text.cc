@@ -1,4 +1,5 @@
 #include "report/view.h"
+#include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -100,4 +101,26 @@ TEST(StudySummary, tells_what_it_leaves_out)
   EXPECT_NE(text.find("not as expected: 7 more in the report"), std::string::npos) << text;
   EXPECT_NE(text.find("expectations: 0 of 9 hold"), std::string::npos);
   EXPECT_NE(text.find("left out by the budget: Q1 at h = 0.01 and 1 more"), std::string::npos);
+}
+
+TEST(StudyPage, begins_with_the_answer_that_the_terminal_ends_in)
+{
+  const fixture::Folder folder;
+  StudyResults results;
+  results.analysis = "stability";
+  View view = long_view(4);
+  write_study(view, results, folder.path());
+  const std::string answer = "stable: method0, method2; unstable: method1, method3";
+  const std::string html = fixture::read(folder.path() / "stability.html");
+  EXPECT_NE(html.find("<p class=\"answer\">" + answer + "</p>"), std::string::npos);
+  EXPECT_NE(fixture::read(folder.path() / "stability.md").find("\n\n" + answer + "\n\n"),
+            std::string::npos);
+
+  // transient analyses have their verdicts in a part
+  view.parts.front().table = view.verdicts;
+  view.verdicts = {};
+  EXPECT_EQ(answer_of(view), answer);
+  view.answer = "The crack runs.";
+  EXPECT_EQ(answer_of(view), "The crack runs.");
+  EXPECT_EQ(answer_of({"Stability"}), "");
 }
