@@ -13,6 +13,7 @@
 #include "scene/values.h"
 #include "study/conclusions.h"
 #include "study/solution_record.h"
+#include "study/trend.h"
 
 #include <nlohmann/json.hpp>
 
@@ -156,9 +157,7 @@ namespace plumbline::app
           const bool is_there = i < trend.x.size();
           table.rows.back().push_back(
               report::known(is_there, report::error_cell(is_there ? trend.values[i] : 0)));
-          table.rows.back().push_back(report::known(
-              is_there && i > 0 && i <= trend.rates.size(),
-              report::number_cell(i > 0 && i <= trend.rates.size() ? trend.rates[i - 1] : 0)));
+          table.rows.back().push_back(report::number_cell(study::observed_rate(trend, i)));
         }
       }
       return table;

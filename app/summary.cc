@@ -4,6 +4,7 @@
 #include "report/text_table.h"
 #include "study/cheapest.h"
 #include "study/target_words.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <array>
@@ -35,8 +36,8 @@ namespace plumbline::app
       std::string text = "last error " + base::to_text(trend.values.back(), n_digits);
       if (trend.values.back() <= trend.round_off)
         text += " (round-off)";
-      else if (!trend.rates.empty() && std::isfinite(trend.rates.back()))
-        text += ", rate " + base::to_text(trend.rates.back(), n_digits);
+      else if (const double rate = study::last_rate(trend); std::isfinite(rate))
+        text += ", rate " + base::to_text(rate, n_digits);
       return text + "; " + trend.proof.reason;
     }
 

@@ -2,6 +2,7 @@
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/study_results.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,12 +34,12 @@ namespace plumbline::report
                        "last error", "rate",   "explanation"};
       for (const study::Trend &t : results.trends)
       {
-        const bool is_judged = t.values.size() > 1 && t.outcome != study::Outcome::failed;
+        const bool is_judged = t.outcome != study::Outcome::failed;
         table.rows.push_back(
             {text_cell(t.method), text_cell(t.series), text_cell(t.verdict),
              known(!in_a_word(t.proof).empty(), text_cell(in_a_word(t.proof))),
              known(!t.values.empty(), error_cell(t.values.empty() ? 0 : t.values.back())),
-             known(is_judged && !t.rates.empty(), rate_cell(t.rates.empty() ? 0 : t.rates.back())),
+             known(is_judged, rate_cell(study::last_rate(t))),
              text_cell(t.reason + (t.proof.reason.empty() ? "" : "; proof: " + t.proof.reason))});
       }
       return without_empty_columns(table);

@@ -4,6 +4,7 @@
 #include "report/text_table.h"
 #include "study/reference_estimate.h"
 #include "study/transient.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,8 +69,7 @@ namespace plumbline::report
       {
         if (t.axis == study::Axis::time_step)
           continue;
-        const bool has_rate = !t.rates.empty() && std::isfinite(t.rates.back()),
-                   is_fitted = t.x.size() >= 3 && std::isfinite(t.rate),
+        const bool is_fitted = t.x.size() >= 3 && std::isfinite(t.rate),
                    is_proven =
                        proven != results.facts.end() && t.family == study::MethodFamily::meshfree;
         table.rows.push_back(
@@ -77,7 +77,7 @@ namespace plumbline::report
              text_cell(t.error.rfind("velocity", 0) == 0 ? "v" : "u"),
              known(!t.values.empty(), error_cell(t.values.empty() ? 0 : t.values.front())),
              known(!t.values.empty(), error_cell(t.values.empty() ? 0 : t.values.back())),
-             known(has_rate, rate_cell(has_rate ? t.rates.back() : 0)),
+             rate_cell(study::last_rate(t)),
              is_fitted ? uncertain_cell(t.rate, t.rate_uncertainty)
                        : Cell{{"", ""}, empty_cell().text, true},
              known(is_proven, text_cell(is_proven ? proven->second : "")), text_cell(t.verdict)});

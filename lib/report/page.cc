@@ -49,7 +49,7 @@ namespace plumbline::report
         return names[static_cast<std::size_t>(outcome)];
       }
 
-      /// Between errors of the size of rounding a rate is noise.
+      /// Both of the last two errors.
       bool is_round_off(const study::Trend &trend)
       {
         const std::size_t n = trend.values.size();
@@ -72,12 +72,11 @@ namespace plumbline::report
       {
         if (trend == nullptr)
           return {{"is_absent", true}};
-        const bool has_rate =
-            !is_round_off(*trend) && !trend->rates.empty() && std::isfinite(trend->rates.back());
+        const double last_rate = study::last_rate(*trend);
         std::ostringstream rate;
         rate.precision(2);
-        if (has_rate)
-          rate << std::fixed << trend->rates.back();
+        if (std::isfinite(last_rate))
+          rate << std::fixed << last_rate;
         const bool has_defect = !is_proven(*trend) && trend->proof.has_wrong_moments();
         return {{"is_absent", false},
                 {"look", outcome_class(trend->outcome)},

@@ -113,9 +113,9 @@ namespace plumbline::report
 
   double rate_at(const study::Trend &trend, double x)
   {
-    for (std::size_t i = 1; i < trend.x.size() && i <= trend.rates.size(); ++i)
+    for (std::size_t i = 1; i < trend.x.size(); ++i)
       if (std::abs(trend.x[i] - x) <= same_length * std::abs(x))
-        return trend.rates[i - 1];
+        return study::observed_rate(trend, i);
     return not_a_number;
   }
 

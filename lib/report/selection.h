@@ -45,8 +45,8 @@ namespace plumbline::report
   /// scene.
   constexpr double same_length = 1e-9;
 
-  /// The rate of a trend between the level with parameter x and the one before; NaN if there is
-  /// none.
+  /// The rate of a trend between the level with parameter x and the one before, see
+  /// study::observed_rate.
   double rate_at(const study::Trend &trend, double x);
 
   /// What varies over the levels, as the trends say.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::study
 {
@@ -279,6 +280,19 @@ namespace plumbline::study
       return "error from " + at(least) + " to " + at(most);
     }
   } // namespace
+
+  double observed_rate(const Trend &trend, std::size_t i)
+  {
+    const bool is_there = i > 0 && i <= trend.rates.size() && i < trend.values.size();
+    return is_there && std::min(trend.values[i - 1], trend.values[i]) > trend.round_off
+               ? trend.rates[i - 1]
+               : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  double last_rate(const Trend &trend)
+  {
+    return observed_rate(trend, trend.rates.size());
+  }
 
   void judge(Trend &trend, const std::string &variable)
   {

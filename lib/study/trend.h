@@ -37,6 +37,13 @@ namespace plumbline::study
   /// @pre x > finest > 0, d > 0
   double own_rate(const std::vector<double> &x, const std::vector<double> &d, double finest);
 
+  /// The rate between level i - 1 and level i; NaN where there is none, or where one of the two
+  /// errors is at most round-off: their ratio is noise.
+  double observed_rate(const Trend &trend, std::size_t i);
+
+  /// That between the last two levels.
+  double last_rate(const Trend &trend);
+
   /// Rates, plateau and outcome from trend.x, values, size and round_off; the rest is left alone.
   ///
   /// - converges: the last error is round-off, where that is at most 1e-4 of how far the solution

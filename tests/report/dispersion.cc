@@ -157,6 +157,9 @@ namespace plumbline::report
     EXPECT_EQ(view.verdicts.rows[1][3].text, "not AC");
     EXPECT_EQ(view.verdicts.rows[1][5].text, "0.126");
     EXPECT_EQ(view.ratings, (std::vector<std::string>{"converges", "stalls", "stalls"}));
+    study::StudyResults exact = results();
+    exact.trends[1].round_off = exact.trends[1].values.back();
+    EXPECT_EQ(dispersion_view(exact).verdicts.rows[1][5].text, empty_cell().text);
   }
 
   TEST(DispersionReport, is_json_without_what_is_not_known)

@@ -90,6 +90,29 @@ namespace plumbline::report
     EXPECT_EQ(rates.rows.at(1).at(j).text, empty_cell().text);
   }
 
+  TEST(DynamicsReport, has_no_rate_to_an_error_of_the_size_of_rounding)
+  {
+    StudyResults results = results_of({});
+    for (const double round_off : {0., 1e-12})
+    {
+      study::Trend trend;
+      trend.method = "Q1";
+      trend.error = "nodal L2 | exact";
+      trend.x = {.1, .05};
+      trend.values = {1e-2, 1e-13};
+      trend.rates = {36.5};
+      trend.round_off = round_off;
+      results.trends.push_back(trend);
+    }
+    const Table rates = table(dynamics_view(results), "rates");
+    const auto column = std::find_if(rates.columns.begin(), rates.columns.end(),
+                                     [](const Column &one) { return one.head == "rate"; });
+    ASSERT_NE(column, rates.columns.end());
+    const auto j = static_cast<std::size_t>(column - rates.columns.begin());
+    EXPECT_EQ(rates.rows.at(0).at(j).text, "36.500");
+    EXPECT_EQ(rates.rows.at(1).at(j).text, empty_cell().text);
+  }
+
   TEST(DynamicsReport, records_read_back_are_those_that_were_written)
   {
     const fixture::Folder folder;

@@ -300,6 +300,9 @@ namespace plumbline::report
     trend.values = {1e-13, 2e-13, 0};
     trend.rates = {-1, 1e9};
     EXPECT_TRUE(holds(page_of(results), "<b>✓ AC</b><small>0</small><small>round-off</small>"));
+    trend.values = {1e-3, 2e-3, 1e-13};
+    trend.rates = {-1, 34};
+    EXPECT_TRUE(holds(page_of(results), "<b>✓ AC</b><small>1.000e-13</small></td>"));
     trend.values = {1e-3, 2e-3, 0};
     trend.rates = {-1, -INFINITY};
     EXPECT_TRUE(holds(page_of(results), "<b>✓ AC</b><small>0</small></td>"));

@@ -51,6 +51,18 @@ TEST(FitSlope, is_exact_for_a_power_and_uncertain_for_noise)
   EXPECT_GT(fit_slope({1, .5, .25}, {8, 1, .5}).uncertainty, .1);
 }
 
+TEST(Rates, are_observed_between_errors_above_round_off_alone)
+{
+  const Trend trend = judged(h, {1e-6, 2.5e-7, 1e-10, 1e-14, 1e-9});
+  ASSERT_EQ(trend.rates.size(), 4u);
+  EXPECT_NEAR(observed_rate(trend, 1), 2, 1e-12);
+  for (const std::size_t i : {0, 2, 3, 4, 5})
+    EXPECT_TRUE(std::isnan(observed_rate(trend, i))) << i;
+  EXPECT_TRUE(std::isnan(last_rate(trend)));
+  EXPECT_NEAR(last_rate(judged(h, {1, .5, .25, .125, .0625})), 1, 1e-12);
+  EXPECT_TRUE(std::isnan(last_rate({})));
+}
+
 TEST(Judge, a_power_converges_with_its_rate)
 {
   for (const double rate : {1., 2., 4.})
