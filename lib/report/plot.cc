@@ -230,7 +230,10 @@ namespace plumbline::report
     std::string slopes_commands(const Plot &plot, const View &view)
     {
       const std::vector<Line> lines =
-          view.has_strip ? parts_above(plot.lines, plot.noise) : plot.lines;
+          plot.shows_round_off ? parts_above(plot.lines, plot.noise) : plot.lines;
+      if (std::none_of(lines.begin(), lines.end(),
+                       [](const Line &line) { return line.points.size() > 1; }))
+        return "";
       std::vector<SlopeTriangle> triangles;
       std::string text;
       for (const unsigned int slope : {2, 1})

@@ -51,7 +51,7 @@ namespace plumbline::report
     std::string file; ///< name of the picture, without folder
     std::string title, x_label, y_label;
     bool is_y_log = true, is_x_log = true;
-    bool has_slopes = false;
+    bool has_slopes = false;      ///< triangles of slopes, if a line has two points above noise
     bool shows_round_off = false; ///< what is smaller than that goes into a strip, see Strip
     double noise = round_off;     ///< the same of fields of the size of these
     std::vector<double> x_ticks;  ///< empty: powers of ten

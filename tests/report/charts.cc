@@ -181,6 +181,23 @@ namespace plumbline::report
     EXPECT_FALSE(place_slope(1, lines, {.1, .2}, {1e-14, 1e-2}, {}));
   }
 
+  TEST(ReportCharts, HaveSlopeTrianglesOnlyIfALineHasASlope)
+  {
+    const auto has_triangles = [](const std::vector<std::vector<Vertex>> &lines)
+    {
+      Plot plot;
+      plot.has_slopes = plot.shows_round_off = true;
+      for (const auto &points : lines)
+        plot.lines.push_back({"FA", style_of(0, false), 1.8, points});
+      return holds(gnuplot_script({plot}), "polygon from");
+    };
+    EXPECT_TRUE(has_triangles({{{.2, 4e-2}, {.1, 1e-2}}}));
+    EXPECT_TRUE(has_triangles({{{.2, 4e-2}}, {{.2, 1e-2}, {.1, 5e-3}}}));
+    EXPECT_FALSE(has_triangles({{{.2, 4e-2}}, {{.1, 1e-2}}})); // single points
+    EXPECT_FALSE(has_triangles({{{.2, 4e-2}, {.1, 1e-14}}}));
+    EXPECT_FALSE(has_triangles({{{.2, 4e-14}, {.1, 1e-14}}}));
+  }
+
   TEST(ReportCharts, PutSlopeTrianglesBesideLinesOfLikeSlope)
   {
     // lines of observed slopes, 1.85 and 1.5: the triangle of 2 belongs to the first one
