@@ -74,10 +74,11 @@ namespace plumbline::report
       if (outcome == base::word(scene::CrackOutcome::too_short))
         text += ": its tip advanced by " + horizons;
       else if (outcome == base::word(scene::CrackOutcome::arrests))
-        text += " after " + rounded(record["advance"]) + ", " + horizons + ", of its notch's tip";
+        text +=
+            " after its tip advanced by " + rounded(record["advance"]) + " [length], " + horizons;
       else
         text += record["speed"] > 0
-                    ? " at a speed of " + rounded(record["speed"]) + ", " +
+                    ? " at a speed of " + rounded(record["speed"]) + " [length/time], " +
                           rounded(record["speed / c_R"]) + " of the Rayleigh wave speed, at most " +
                           rounded(record["fastest / c_R"])
                     : ", at an unknown speed: too few tip positions were sampled for a fit";

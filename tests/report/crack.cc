@@ -1,0 +1,49 @@
+// What `plumbline crack` says and draws.
+#include "report/view.h"
+#include "scene/crack_section.h"
+#include "tests/report/fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    study::StudyResults moved(scene::CrackOutcome outcome)
+    {
+      Record record;
+      record.key.method = "FA";
+      record.key.h = .5;
+      record.key.horizon = 1.5;
+      record.texts["outcome"] = base::word(outcome);
+      record.set("load", 2);
+      record.set("advance", 3, "length");
+      record.set("speed", .5, "length/time");
+      record.set("speed / c_R", .625);
+      record.set("fastest / c_R", .75);
+      record.set("c_R", .8, "length/time");
+      record.set("notch tip", 1, "length");
+      record.set("asymmetry", 0);
+      record.curves["samples"] = {{"t", "time", {0, 1, 2}},      {"tip", "length", {1, 2, 4}},
+                                  {"kinetic", "", {0, 1, 2}},    {"bonds", "", {9, 7, 5}},
+                                  {"soft bonds", "", {0, 1, 2}}, {"dissipated", "", {0, 1, 2}},
+                                  {"branches", "", {1, 1, 1}}};
+      record.curves["moments"] = {{"t", "time", {0}}};
+      record.fields["damage"] = {1, {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}}, {0, 0, 0, 0}};
+      study::StudyResults results;
+      results.analysis = "crack";
+      results.records = {record};
+      return results;
+    }
+  } // namespace
+
+  TEST(CrackReport, GivesSpeedAndAdvanceWithUnits)
+  {
+    EXPECT_EQ(crack_view(moved(scene::CrackOutcome::runs)).answer,
+              "At 2 of its threshold the crack runs at a speed of 0.5 [length/time], 0.625 of the "
+              "Rayleigh wave speed, at most 0.75; the picture is symmetric to the last bit.");
+    EXPECT_EQ(crack_view(moved(scene::CrackOutcome::arrests)).answer,
+              "At 2 of its threshold the crack arrests after its tip advanced by 3 [length], 2 "
+              "horizons; the picture is symmetric to the last bit.");
+  }
+} // namespace plumbline::report
