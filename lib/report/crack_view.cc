@@ -136,7 +136,7 @@ namespace plumbline::report
     DataChart energy_chart(const analysis::Curve &samples)
     {
       DataChart chart = linear_chart(
-          "energies", "Energies", "t [time]", "energy",
+          "energies", "Energies", "t [time]", "energy [force]",
           "Grips that stand still do no work: the sum stays as it is but for the error "
           "of the time steps.");
       chart.data = table_of(samples);

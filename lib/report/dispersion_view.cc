@@ -161,7 +161,7 @@ namespace plumbline::report
       std::vector<DataChart> all = charts_of(
           {"errors",
            "error of the longest wave's phase speed",
-           "|c/c(nonlocal) - 1|, worst direction",
+           "|c/c(nonlocal) - 1|, worst direction [1]",
            [](const Record &record) { return record["error against the nonlocal operator"]; },
            {},
            "",

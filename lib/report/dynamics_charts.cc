@@ -75,9 +75,11 @@ namespace plumbline::report
       return results.decisive_error;
     }
 
-    std::string error_words(const StudyResults &results)
+    const char *const unit_of_errors = " [unit of the solution]";
+
+    std::string error_label(const StudyResults &results)
     {
-      return "error at the final time, " + decisive(results);
+      return "error at the final time, " + decisive(results) + unit_of_errors;
     }
 
     DataChart trends_chart(const StudyResults &results, const std::string &error, DataChart chart)
@@ -119,8 +121,8 @@ namespace plumbline::report
       DataChart chart = named("cost", "What accuracy costs",
                               "All runs, over h and time step: each line is one method, scheme "
                               "and step over h; grey: the best pairs of h and step.");
-      chart.plot.x_label = "CPU seconds, preparation and steps";
-      chart.plot.y_label = error_words(results);
+      chart.plot.x_label = "work: preparation and steps [CPU s]";
+      chart.plot.y_label = error_label(results);
       chart.plot.frontier_label = "best pairs";
       chart.data.columns = {"method", "case", "series", "scheme", "h", "dt", "seconds", "error"};
       Lines lines;
@@ -190,8 +192,8 @@ namespace plumbline::report
                 "Energies: " + run.key.method + ", " + scheme(run) + ", h = " + rounded(run.key.h),
                 "Of one run, " + step(run) + "; the others are in dynamics.json.");
       chart.plot.is_x_log = false;
-      chart.plot.x_label = "time";
-      chart.plot.y_label = "energy";
+      chart.plot.x_label = "time [time]";
+      chart.plot.y_label = "energy [force length]";
       chart.data.columns = {"t", "kinetic", "bond", "stored", "work", "dissipated"};
       double low = 0, high = 0;
       for (const E &now : energies)
@@ -244,7 +246,7 @@ namespace plumbline::report
     {
       constexpr double floor = 1e-16; // of the largest: below it a logarithm says nothing
       chart.plot.is_x_log = false;
-      chart.plot.x_label = "time";
+      chart.plot.x_label = "time [time]";
       chart.data.columns = {"method", "series", "scheme", "step", "t", "value"};
       Lines lines;
       for (const Record *run : finest(results, all_steps))
@@ -334,12 +336,12 @@ namespace plumbline::report
     const study::Axis axis =
         results.trends.empty() ? study::Axis::mesh_size : results.trends.front().axis;
     errors.plot.x_label = study::label(axis, results.variable);
-    errors.plot.y_label = error_words(results);
-    orders.plot.x_label = "time step";
-    orders.plot.y_label = "error in time, nodal L2";
+    errors.plot.y_label = error_label(results);
+    orders.plot.x_label = study::label(study::Axis::time_step, "");
+    orders.plot.y_label = std::string("error in time, nodal L2") + unit_of_errors;
     balance.plot.y_label = "imbalance over the largest energy";
     stored.plot.y_label = "stored energy over that at the start";
-    history.plot.y_label = decisive(results);
+    history.plot.y_label = "error, " + decisive(results) + unit_of_errors;
     add(trends_chart(results, decisive(results), errors), 2);
     add(cost_chart(results), 2);
     add(trends_chart(results, study::time_error, orders), 2);

@@ -189,7 +189,7 @@ namespace plumbline::report
     DataChart load_chart(const Curve &events)
     {
       DataChart chart = linear_chart(
-          "load", "Reaction over load", "load", "reaction [force]",
+          "load", "Reaction over load", "load factor [1]", "reaction [force]",
           "Under a load that never falls a break lets the reaction fall at once. Dashed: "
           "the same bonds at loads at which each event would just begin, equilibria that a "
           "load that follows would pass through.");
@@ -215,7 +215,7 @@ namespace plumbline::report
     DataChart energy_chart(const Record &record, const Curve &events)
     {
       DataChart chart = linear_chart(
-          "energies", "Energy balance", "broken bonds", "energy [force]",
+          "energies", "Energy balance", "broken bonds [1]", "energy [force]",
           "Energy balance: the external work is stored, dissipated in broken bonds, or released in "
           "unstable crack growth. The maximum imbalance relative to the work is " +
               rounded(record["imbalance"]) +
@@ -244,7 +244,7 @@ namespace plumbline::report
     {
       DataChart chart = linear_chart(
           "tip", "What load the crack needs", "tip's way from the notch [length]",
-          "load at which an event begins",
+          "load factor at which an event begins [1]",
           "The crack is where next neighbours have separated; its tip the end of these sides "
           "that is farthest from the notch's tip. From column to column the lattice traps "
           "it, and lets it go at a lower load.");

@@ -26,6 +26,14 @@ namespace plumbline::report
       return set.deviation_error;
     }
 
+    const char *const error_label = "error, L2 over the domain [unit of the field]";
+
+    /// Variables and quantities by any name.
+    std::string in_units_of_scene(const std::string &name)
+    {
+      return name + " [in units of the scene]";
+    }
+
     /// Lines by label.
     Line &line_of(std::vector<Line> &lines, const std::string &label, bool is_dashed)
     {
@@ -121,27 +129,25 @@ namespace plumbline::report
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(
-          what + "-samples", "Error of the " + what + " over samples", "samples",
-          "error, L2 over the domain",
+          what + "-samples", "Error of the " + what + " over samples", "samples [1]", error_label,
           "Each line falls at the rule's rate until the error of the discretisation, which more "
           "samples cannot mend.");
       fill(results, over_samples, value, samples, by_h);
       DataChart over_h = empty_chart(what + "-h", "Error of the " + what + " over h",
-                                     "mesh size h [length]", "error, L2 over the domain",
+                                     "mesh size h [length]", error_label,
                                      "Each line falls at the discretisation's rate until the error "
                                      "of its samples, which finer "
                                      "meshes cannot mend.");
       over_h.plot.has_slopes = true;
       fill(results, over_h, value, h, by_set);
-      DataChart over_time =
-          empty_chart(what + "-cost", "Error of the " + what + " over time", "CPU time [s]",
-                      "error, L2 over the domain",
-                      "All pairs of h and samples: where lines of two h cross, samples and mesh "
-                      "are worth the same.");
+      DataChart over_time = empty_chart(
+          what + "-cost", "Error of the " + what + " over time", "CPU time [s]", error_label,
+          "All pairs of h and samples: where lines of two h cross, samples and mesh "
+          "are worth the same.");
       fill(results, over_time, value, seconds, by_h);
       DataChart over_modes =
-          empty_chart(what + "-modes", "Error of the " + what + " over modes", "modes of the field",
-                      "error, L2 over the domain",
+          empty_chart(what + "-modes", "Error of the " + what + " over modes",
+                      "modes of the field [1]", error_label,
                       "Each line falls with the variance that is left out, until "
                       "the error of h and of samples.");
       if (!results.sampling.modes.empty())
@@ -165,8 +171,8 @@ namespace plumbline::report
         const std::string &variable = results.variables.front();
         DataChart chart = named(slug("over-" + variable + "-" + name), name + " over " + variable,
                                 "At each value of " + variable + ", methods and levels apart.");
-        chart.plot.x_label = variable;
-        chart.plot.y_label = name;
+        chart.plot.x_label = in_units_of_scene(variable);
+        chart.plot.y_label = in_units_of_scene(name);
         chart.plot.is_x_log = false;
         chart.data.columns = {"method", "case", "series", "h", variable, "value"};
         bool is_positive = true;
@@ -221,10 +227,10 @@ namespace plumbline::report
           const auto [least_value, largest] = std::minmax_element(values.begin(), values.end());
           if (!(*largest > *least_value))
             continue;
-          DataChart chart =
-              empty_chart(slug("histogram-" + one.of.method + "-" + rounded(one.of.h) + "-" + name),
-                          name + (has_several_methods(results) ? ", " + one.of.method : ""), name,
-                          "samples", "How samples of " + name + " are spread.");
+          DataChart chart = empty_chart(
+              slug("histogram-" + one.of.method + "-" + rounded(one.of.h) + "-" + name),
+              name + (has_several_methods(results) ? ", " + one.of.method : ""),
+              in_units_of_scene(name), "samples [1]", "How samples of " + name + " are spread.");
           chart.plot.is_x_log = chart.plot.is_y_log = false;
           chart.data.columns = {"from", "to", "samples"};
           Line bars{"", style_of(0, false), 1.8, {}, 1000000};

@@ -8,8 +8,8 @@ namespace plumbline::report
     DataChart chart =
         named("spectrum", "Variance that modes hold",
               "Eigenvalues over the variance of the whole field, and their sums: " + words + ".");
-    chart.plot.x_label = "mode";
-    chart.plot.y_label = "share of the variance";
+    chart.plot.x_label = "mode [1]";
+    chart.plot.y_label = "share of the variance [1]";
     chart.plot.is_x_log = false;
     chart.data.columns = {"mode", "share", "kept"};
     Line each{"of each mode", style_of(0, false), 1.8, {}, 1},

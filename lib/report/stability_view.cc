@@ -171,7 +171,7 @@ namespace plumbline::report
           named("growth_" + slug(key.variant) + (key.series.empty() ? "" : "_") + slug(key.series),
                 key.series + ", h = " + rounded(key.h) + ": " + key.variant + ", growth of waves");
       chart.caption = chart.plot.title;
-      chart.plot.x_label = "X = β ε g²";
+      chart.plot.x_label = "X = β ε g² [1]";
       chart.plot.y_label = "growth rate [1/time]";
       chart.plot.is_x_log = chart.plot.is_y_log = false;
       chart.plot.frontier_label = "symbol";

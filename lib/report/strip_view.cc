@@ -115,6 +115,16 @@ namespace plumbline::report
                    "twentieth with the finest.";
     }
 
+    /// Of energy release rates relative to the material's it is 1.
+    std::string unit_of(const StudyResults &results, const std::string &quantity)
+    {
+      for (const Record &record : results.records)
+        if (const auto found = record.scalars.find(quantity);
+            found != record.scalars.end() && !found->second.unit.empty())
+          return found->second.unit;
+      return "1";
+    }
+
     DataChart quantity_chart(const StudyResults &results, const std::string &quantity)
     {
       const bool is_over_horizon = // h stays
@@ -126,7 +136,7 @@ namespace plumbline::report
                             : named(slug(quantity), quantity + " over h, and limits at 0",
                                     "At h = 0: limits by the three finest levels.");
       chart.plot.x_label = is_over_horizon ? "horizon δ [length]" : "mesh size h [length]";
-      chart.plot.y_label = quantity;
+      chart.plot.y_label = quantity + " [" + unit_of(results, quantity) + "]";
       chart.plot.is_x_log = chart.plot.is_y_log = false;
       chart.data.columns = {"method", "series", is_over_horizon ? "horizon" : "h", quantity};
       const auto names = lines_of(results);

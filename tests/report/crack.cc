@@ -46,4 +46,14 @@ namespace plumbline::report
               "At 2 of its threshold the crack arrests after its tip advanced by 3 [length], 2 "
               "horizons; the picture is symmetric to the last bit.");
   }
+
+  TEST(CrackReport, HasUnitsOnTheAxesOfItsCharts)
+  {
+    const View view = crack_view(moved(scene::CrackOutcome::runs));
+    const auto &charts = view.galleries.at(0).charts;
+    ASSERT_EQ(charts.size(), 3u);
+    for (const DataChart &chart : charts)
+      EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
+    EXPECT_EQ(charts[2].plot.y_label, "energy [force]"); // of a body of thickness 1 [length]
+  }
 } // namespace plumbline::report

@@ -184,6 +184,8 @@ namespace plumbline::report
     const auto charts = dispersion_view(results()).galleries.at(0).charts;
     ASSERT_EQ(charts.size(), 1u + 4u + 2u); // errors; phase speeds; group speeds in one direction
     EXPECT_EQ(charts[0].name, "errors_m-3");
+    for (const DataChart &chart : charts)
+      EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
     const auto named = [&](const std::string &name) -> const DataChart &
     {
       for (const DataChart &chart : charts)

@@ -113,6 +113,42 @@ namespace plumbline::report
     EXPECT_EQ(rates.rows.at(1).at(j).text, empty_cell().text);
   }
 
+  TEST(DynamicsReport, charts_have_units_on_their_axes)
+  {
+    StudyResults results = results_of({run_of(0, .1, 1e-2, 1), run_of(1, .1, 6e-3, 3)});
+    results.facts["blow-up"] = "is shown";
+    for (Record &record : results.records)
+    {
+      record.curves["energy"] = {{"time", "time", {0, .5, 1}},
+                                 {"kinetic", "force length", {0, .5, .5}},
+                                 {"bonds", "force length", {1, .25, .125}},
+                                 {"work", "force length", {0, 0, 0}},
+                                 {"dissipated", "force length", {0, 0, 0}}};
+      record.curves["error"] = {{"time", "time", {0, .5}}, {"error", "", {1e-3, 6e-3}}};
+    }
+    for (const auto &[error, axis] : {std::pair{results.decisive_error, study::Axis::mesh_size},
+                                      std::pair{study::time_error, study::Axis::time_step}})
+    {
+      study::Trend trend;
+      trend.method = "FA";
+      trend.error = error;
+      trend.axis = axis;
+      trend.variant = "velocity Verlet";
+      trend.x = {.1, .05};
+      trend.values = {1e-2, 6e-3};
+      results.trends.push_back(trend);
+    }
+    std::vector<std::string> names;
+    for (const DataChart &chart : dynamics_charts(results))
+    {
+      names.push_back(chart.name);
+      EXPECT_TRUE(fixture::has_units(chart.plot))
+          << chart.name << ": " << chart.plot.x_label << ", " << chart.plot.y_label;
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"errors", "cost", "orders", "energies", "stored",
+                                               "balance", "history"}));
+  }
+
   TEST(DynamicsReport, records_read_back_are_those_that_were_written)
   {
     const fixture::Folder folder;

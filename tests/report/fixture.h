@@ -1,5 +1,6 @@
 #pragma once
 
+#include "report/plot.h"
 #include "study/solution_record.h"
 
 #include <cmath>
@@ -204,6 +205,19 @@ namespace plumbline::report::fixture
   {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  /// Both axes have a unit, or a ratio.
+  inline bool has_units(const Plot &plot)
+  {
+    const auto has = [](const std::string &label)
+    {
+      for (const char *const mark : {"[", "relative", " over "})
+        if (label.find(mark) != std::string::npos)
+          return true;
+      return false;
+    };
+    return has(plot.x_label) && has(plot.y_label);
   }
 
   inline std::size_t count(const std::string &text, const std::string &part)

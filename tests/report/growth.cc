@@ -113,6 +113,17 @@ namespace plumbline::report
     EXPECT_EQ(fixture::count(page, "<image"), 3u); // of it, and of two moments
   }
 
+  TEST(GrowthReport, HasUnitsOnTheAxesOfItsCharts)
+  {
+    const View view = growth_view(grown());
+    const auto &charts = view.galleries.at(0).charts;
+    ASSERT_EQ(charts.size(), 3u);
+    for (const DataChart &chart : charts)
+      EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
+    EXPECT_EQ(charts[0].plot.x_label, "load factor [1]");
+    EXPECT_EQ(charts[1].plot.y_label, "energy [force]"); // of a body of thickness 1 [length]
+  }
+
   TEST(GrowthReport, DrawsNoMicrostructureThatIsNotThere)
   {
     const fixture::Folder folder;

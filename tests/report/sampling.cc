@@ -180,6 +180,7 @@ namespace plumbline::report
       const std::vector<DataChart> charts = sampling_charts(results);
       ASSERT_EQ(charts.size(), 1u);
       EXPECT_EQ(charts[0].name, "histogram-opt-0.25-k-by-bonds");
+      EXPECT_TRUE(fixture::has_units(charts[0].plot));
       EXPECT_EQ(to_csv(charts[0].data),
                 "from,to,samples\n0,1,3\n1,2,3\n2,3,1\n3,4,4\n4,5,1\n5,6,4\n");
     }
@@ -206,6 +207,7 @@ namespace plumbline::report
     const std::vector<DataChart> charts = sampling_charts(results);
     ASSERT_EQ(charts.size(), 2u);
     EXPECT_EQ(charts[0].name, "over-nu-k");
+    EXPECT_TRUE(fixture::has_units(charts[0].plot));
     EXPECT_FALSE(charts[0].plot.is_y_log);
     EXPECT_EQ(charts[1].name, "over-nu-nodal-l2-exact");
     EXPECT_TRUE(charts[1].plot.is_y_log);

@@ -167,6 +167,9 @@ namespace plumbline::report
           << name;
     EXPECT_EQ(names, (std::vector<std::string>{"coercivity_m-3", "inverse_m-3", "largest_m-3",
                                                "lowest-modes_m-3", "zero-modes_free_m-3"}));
+    for (const Gallery &gallery : view.galleries)
+      for (const DataChart &chart : gallery.charts)
+        EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
     const std::string html = fixture::read(folder.path() / "stability.html");
     EXPECT_EQ(fixture::count(html, "role=\"img\""), names.size());
     EXPECT_EQ(fixture::count(html, "<section"), fixture::count(html, "</section>"));
@@ -222,6 +225,7 @@ namespace plumbline::report
     ASSERT_EQ(gallery.charts.size(), 1u);
     EXPECT_EQ(gallery.charts[0].name, "growth_shear-strain_delta-0.2");
     const Plot &plot = gallery.charts[0].plot;
+    EXPECT_TRUE(fixture::has_units(plot));
     ASSERT_EQ(plot.frontier.size(), 3u); // from where it begins
     EXPECT_EQ(plot.frontier[0].x, 1.1);
     EXPECT_EQ(plot.frontier[2].y, 15);

@@ -73,5 +73,10 @@ namespace plumbline::report
     EXPECT_EQ(names, (std::vector<std::string>{"tip-energy", "profile", "opening", "w1",
                                                "growth-peak", "growth-released"}));
     EXPECT_EQ(view.galleries[0].charts[0].plot.lines[0].points.back().x, 0); // its limit
+    EXPECT_EQ(view.galleries[0].charts[0].plot.y_label, "tip energy [mu length^2]");
+    EXPECT_EQ(view.galleries[0].charts[4].plot.y_label, "growth peak [1]");
+    for (const Gallery &gallery : view.galleries)
+      for (const DataChart &chart : gallery.charts)
+        EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
   }
 } // namespace plumbline::report
