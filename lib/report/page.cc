@@ -1,5 +1,6 @@
 #include "report/page.h"
 
+#include "report/equation.h"
 #include "report/page_parts.h"
 #include "report/report_parts.h"
 #include "report/tables.h"
@@ -180,6 +181,7 @@ namespace plumbline::report
         data["is_complete"] = results.is_complete;
         data["warnings"] = results.warnings;
         data["regime"] = regime_words(results);
+        data["equation"] = equation(results);
         data["variable"] = results.variable;
         data["error"] = error_words(results.decisive_error);
         data["target"] = study::target_words(results);

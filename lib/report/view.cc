@@ -2,6 +2,7 @@
 
 #include "io/results_json.h"
 #include "report/damage_maps.h"
+#include "report/equation.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -369,6 +370,7 @@ namespace plumbline::report
         facts.emplace_back(page::interrupted);
       Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
       data["answer"] = answer_of(view);
+      data["equation"] = equation(results);
       data["model"] = view.model;
       data["scene_text"] = results.scene_text;
       data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};

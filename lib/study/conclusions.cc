@@ -4,6 +4,7 @@
 #include "scene/models/model.h"
 #include "study/cheapest.h"
 #include "study/expectations.h"
+#include "study/model_facts.h"
 #include "study/solution_record.h"
 #include "study/target_words.h"
 #include "study/tip_forces.h"
@@ -342,6 +343,7 @@ namespace plumbline::study
     results.trends.clear();
     results.advice.clear();
     results.omissions.clear();
+    add_model_facts(scene, results.facts);
     make_trends(scene, results);
     warn_of_target(results);
     if (results.is_complete)

@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "scene/models/model.h"
 #include "study/expectations.h"
+#include "study/model_facts.h"
 #include "study/solution_record.h"
 #include "study/trend.h"
 #include "study/weigh_proof.h"
@@ -195,6 +196,7 @@ namespace plumbline::study
     {
       auto &facts = results.facts;
       const double horizon = scene.study.series.front().levels.front().horizon;
+      add_model_facts(scene, facts);
       facts["regime"] = base::word(scene.study.regime);
       facts["final time T"] = number(scene.time.final_time);
       facts["density ρ, damping η"] =

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <map>
+#include <string>
+
+namespace plumbline::study
+{
+  /// The equation that a scene poses, by name: model, dimension, kernel, constraint, and, where
+  /// there are some, constants, local limit, coefficient, dilatation, varying constants, boundary
+  /// function, broken bonds. Reports write the equation by them.
+  void add_model_facts(const scene::Scene &scene, std::map<std::string, std::string> &facts);
+} // namespace plumbline::study

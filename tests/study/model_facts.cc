@@ -1,0 +1,51 @@
+// What results tell of the equation that was solved.
+#include "study/model_facts.h"
+#include "scene/scene_file.h"
+
+#include <gtest/gtest.h>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  using Facts = std::map<std::string, std::string>;
+
+  Facts facts_of(const std::string &name, const std::vector<scene::Override> &settings = {})
+  {
+    Facts facts;
+    add_model_facts(scene::parse_scene("test.prm", scene::scene_template(name), settings), facts);
+    return facts;
+  }
+} // namespace
+
+TEST(ModelFacts, name_kernel_limit_and_constraint_of_bonds)
+{
+  EXPECT_EQ(facts_of("scalar"), (Facts{{"model", "bond-based"},
+                                       {"dimension", "2"},
+                                       {"kernel", "linear-decay"},
+                                       {"constraint", "u = g in the interaction domain"},
+                                       {"local limit", "-1/2 Laplace"}}));
+  const Facts tensor = facts_of("tensor", {{"Material/E", "2"}});
+  EXPECT_EQ(tensor.at("kernel"), "bond-tensor");
+  EXPECT_EQ(tensor.at("local limit"), "Navier");
+  EXPECT_EQ(tensor.at("constants"), "E = 2, plane strain");
+}
+
+TEST(ModelFacts, say_whether_solids_have_dilatations)
+{
+  const Facts other = facts_of("LPS"), quarter = facts_of("LPS", {{"Material/nu", "0.25"}});
+  EXPECT_EQ(other.at("constants"), "E = 1, nu = 0.3, plane strain");
+  for (const char *const absent : {"dilatation", "varying constants", "local limit"})
+    EXPECT_EQ(other.count(absent), 0u) << absent;
+  EXPECT_EQ(quarter.at("dilatation"), "none, as lambda = mu");
+}
+
+TEST(ModelFacts, name_what_is_fixed_of_a_body_and_the_potential_of_double_wells)
+{
+  EXPECT_EQ(facts_of("variational").at("constraint"),
+            "u = g in the fixed parts; families end at the boundary");
+  const Facts wells = facts_of("double-well");
+  EXPECT_EQ(wells.at("constraint"), "on a torus");
+  EXPECT_EQ(wells.at("constants"), "c = 1, beta = 1");
+}
