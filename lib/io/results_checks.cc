@@ -75,6 +75,9 @@ namespace plumbline::io
         expect(map.values.size() == n, place + ".values",
                "has " + std::to_string(map.values.size()) +
                    " numbers, not n_x * n_y = " + std::to_string(n));
+        expect(map.solution.empty() || map.solution.size() == n, place + ".solution",
+               "has " + std::to_string(map.solution.size()) +
+                   " numbers, neither none nor n_x * n_y = " + std::to_string(n));
         for (unsigned int d = 0; d < 2; ++d)
           expect(std::isfinite(map.upper[d] - map.lower[d]) && map.lower[d] < map.upper[d], place,
                  "has an upper corner that is not above and right of the lower one");

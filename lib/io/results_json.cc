@@ -121,6 +121,8 @@ namespace plumbline::study
     a("n_y", map.n_y);
     a("size", map.size);
     a("values", map.values);
+    a("n_components", map.n_components);
+    a("solution", map.solution);
   }
 
   template <typename Archive>

@@ -1,13 +1,12 @@
 #include "report/charts.h"
 
+#include "report/damage_maps.h"
 #include "report/formats.h"
 #include "report/maps.h"
 #include "report/page_script.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -58,6 +57,7 @@ namespace plumbline::report
                                          : std::numeric_limits<double>::quiet_NaN()};
       case ChartKind::convergence:
       case ChartKind::error_map:
+      case ChartKind::solution:
         break;
       }
       return {place_on(axis, run), error};
@@ -77,6 +77,8 @@ namespace plumbline::report
         return "iterations";
       case ChartKind::error_map:
         return "error-maps";
+      case ChartKind::solution:
+        return "solution";
       case ChartKind::convergence:
         break;
       }
@@ -96,6 +98,7 @@ namespace plumbline::report
       case ChartKind::iterations:
         return "iterations of the solver";
       case ChartKind::error_map:
+      case ChartKind::solution:
       case ChartKind::convergence:
         break;
       }
@@ -107,6 +110,11 @@ namespace plumbline::report
     {
       return kind == ChartKind::work_precision || kind == ChartKind::memory ||
              kind == ChartKind::pairs;
+    }
+
+    bool is_map(ChartKind kind)
+    {
+      return kind == ChartKind::error_map || kind == ChartKind::solution;
     }
 
     std::string x_label(const study::StudyResults &results, ChartKind kind, study::Axis axis)
@@ -122,6 +130,7 @@ namespace plumbline::report
       case ChartKind::iterations:
       case ChartKind::convergence:
       case ChartKind::error_map:
+      case ChartKind::solution:
         break;
       }
       return label(axis, results.variable);
@@ -345,6 +354,9 @@ namespace plumbline::report
       charts.push_back({ChartKind::error_map, kind_slug(ChartKind::error_map),
                         map_title(results.maps), results.maps.front().problem,
                         results.maps.front().series});
+    if (const study::ErrorMap *map = solution_map(results.maps, names))
+      charts.push_back({ChartKind::solution, kind_slug(ChartKind::solution), solution_title(*map),
+                        map->problem, map->series});
     return charts;
   }
 
@@ -363,10 +375,14 @@ namespace plumbline::report
       const std::string picture = chart.name + ".svg";
       pictures.push_back(picture);
       std::filesystem::remove(folder / picture); // no old picture beside new data
-      if (chart.kind == ChartKind::error_map)
+      if (is_map(chart.kind))
       {
-        write_file(folder / (chart.name + ".csv"), to_csv(map_table(results.maps)));
-        script += map_script(results.maps, picture);
+        const study::ErrorMap *solution = solution_map(results.maps, names);
+        const bool is_solution = chart.kind == ChartKind::solution;
+        write_file(folder / (chart.name + ".csv"),
+                   to_csv(is_solution ? solution_table(*solution) : map_table(results.maps)));
+        script +=
+            is_solution ? solution_script(*solution, picture) : map_script(results.maps, picture);
         continue;
       }
       const std::vector<const Case *> chosen = cases_of(all, chart);
@@ -380,14 +396,9 @@ namespace plumbline::report
     write_chart_data(plots, folder);
     write_file(folder / "charts.gp", gnuplot_script(plots) + script);
     run_gnuplot(folder, "charts.gp", pictures);
-    if (!results.maps.empty())
-    {
-      const std::filesystem::path file = folder / (kind_slug(ChartKind::error_map) + ".svg");
-      std::ifstream in(file, std::ios::binary);
-      const std::string svg((std::istreambuf_iterator<char>(in)), {});
-      in.close();
-      write_file(file, with_sharp_blocks(svg));
-    }
+    for (const Chart &chart : charts)
+      if (is_map(chart.kind))
+        sharpen(folder / (chart.name + ".svg"));
     return charts;
   }
 } // namespace plumbline::report

@@ -14,6 +14,7 @@ namespace plumbline::report
     work_precision, ///< decisive error against CPU seconds
     convergence,    ///< decisive error against what varies, h or horizon
     error_map,      ///< where each method errs, see maps.h
+    solution,       ///< the solution by one method, see maps.h
     memory,         ///< decisive error against peak memory
     pairs,          ///< decisive error against the pairs summed in one operator application
     iterations      ///< of the linear solver, against what varies

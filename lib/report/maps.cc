@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace plumbline::report
@@ -15,17 +16,52 @@ namespace plumbline::report
     constexpr double few_decades = 1e3;
 
     /// A row of blocks a line, from the lower left corner; a picture needs no more digits.
-    std::string data(const study::ErrorMap &map, const ColourScale &scale)
+    /// @param least  smaller values are drawn like it
+    std::string data(const study::ErrorMap &map, const std::vector<double> &values, double least)
     {
       std::string text;
       for (unsigned int j = 0; j < map.n_y; ++j)
         for (unsigned int i = 0; i < map.n_x; ++i)
         {
-          const double value = map.values[std::size_t{j} * map.n_x + i];
-          text += std::isfinite(value) ? rounded_error(std::max(value, scale.low)) : "NaN";
+          const double value = values[std::size_t{j} * map.n_x + i];
+          text += std::isfinite(value) ? rounded_error(std::max(value, least)) : "NaN";
           text += i + 1 < map.n_x ? " " : "\n";
         }
       return text;
+    }
+
+    /// Of the finite ones.
+    Range range_of(const std::vector<double> &values)
+    {
+      Range range{std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
+      for (const double value : values)
+        if (std::isfinite(value))
+          range = {std::min(range.low, value), std::max(range.high, value)};
+      return range;
+    }
+
+    bool has_solution(const study::ErrorMap &map)
+    {
+      const Range range = range_of(map.solution);
+      return range.low <= range.high;
+    }
+
+    /// What the solution of a map is called.
+    std::string symbol(const study::ErrorMap &map)
+    {
+      return map.n_components == 1 ? "u" : "|u|";
+    }
+
+    std::string place(const study::ErrorMap &map)
+    {
+      return map.problem + (map.series.empty() ? "" : ", " + map.series);
+    }
+
+    std::string colours(double low, double high)
+    {
+      return std::string("set palette defined (") + viridis + ")\nset cbrange [" + exact(low) +
+             ":" + exact(high) + "]\n";
     }
 
     double block(const study::ErrorMap &map, unsigned int d)
@@ -41,6 +77,27 @@ namespace plumbline::report
       };
       return "plot $m" + std::to_string(i) + " matrix using " + centre(0, "$1") + ":" +
              centre(1, "$2") + ":3 with image notitle\n";
+    }
+
+    /// @param values  of the map's blocks
+    void add_rows(const study::ErrorMap &map, const std::vector<double> &values,
+                  Cell (*cell)(double), Table &table)
+    {
+      for (unsigned int j = 0; j < map.n_y; ++j)
+        for (unsigned int i = 0; i < map.n_x; ++i)
+          if (const double value = values[std::size_t{j} * map.n_x + i]; std::isfinite(value))
+            table.rows.push_back(
+                {text_cell(map.method), text_cell(map.problem), text_cell(map.series),
+                 number_cell(map.h), number_cell(map.lower[0] + (i + .5) * block(map, 0)),
+                 number_cell(map.lower[1] + (j + .5) * block(map, 1)), cell(value)});
+    }
+
+    Table table_with(const std::string &value)
+    {
+      Table table;
+      table.columns = {"method",     "problem",    "series", "h [length]",
+                       "x [length]", "y [length]", value};
+      return table;
     }
   } // namespace
 
@@ -69,8 +126,7 @@ namespace plumbline::report
     const study::ErrorMap &first = maps.front();
     const bool is_same = std::all_of(maps.begin(), maps.end(),
                                      [&](const study::ErrorMap &map) { return map.h == first.h; });
-    return first.problem + (first.series.empty() ? "" : ", " + first.series) +
-           (is_same ? ", h = " + rounded(first.h) : "") + ": where the error sits";
+    return place(first) + (is_same ? ", h = " + rounded(first.h) : "") + ": where the error sits";
   }
 
   std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file)
@@ -86,11 +142,11 @@ namespace plumbline::report
     std::ostringstream out;
     out << "\nreset\n";
     for (std::size_t i = 0; i < n; ++i)
-      out << "$m" << i << " << EOD\n" << data(maps[i], scale) << "EOD\n";
+      out << "$m" << i << " << EOD\n" << data(maps[i], maps[i].values, scale.low) << "EOD\n";
     out << panels.begin(file, map_title(maps),
                         "|error of " + maps.front().quantity + "| [unit of the solution]")
-        << "set palette defined (" << viridis << ")\nset logscale cb\nset cbrange ["
-        << exact(scale.low) << ":" << exact(scale.high) << "]\nset cbtics 1e" << (decades + 7) / 8
+        << "set logscale cb\n"
+        << colours(scale.low, scale.high) << "set cbtics 1e" << (decades + 7) / 8
         << "\nunset mcbtics\nset format cb '10^{%T}'\n";
     for (std::size_t i = 0; i < n; ++i)
       out << panels.panel(i, maps[i].method) << plot(maps[i], i) << SmallMultiples::next();
@@ -98,24 +154,55 @@ namespace plumbline::report
     return out.str();
   }
 
+  const study::ErrorMap *solution_map(const std::vector<study::ErrorMap> &maps,
+                                      const std::vector<MethodName> &methods)
+  {
+    const study::ErrorMap *best = nullptr;
+    for (const study::ErrorMap &map : maps)
+    {
+      if (!has_solution(map))
+        continue;
+      if (std::any_of(methods.begin(), methods.end(),
+                      [&](const MethodName &method)
+                      { return method.name == map.method && method.is_reference(); }))
+        return &map;
+      if (best == nullptr || range_of(map.values).high < range_of(best->values).high)
+        best = &map;
+    }
+    return best;
+  }
+
+  std::string solution_title(const study::ErrorMap &map)
+  {
+    return place(map) + ", h = " + rounded(map.h) + ": the solution by " + map.method;
+  }
+
+  std::string solution_script(const study::ErrorMap &map, const std::string &file)
+  {
+    const SmallMultiples panels(1, 1, map.lower, map.upper);
+    const Range range = range_of(map.solution);
+    const double high = range.high > range.low ? range.high : range.low + 1;
+    std::ostringstream out;
+    out << "\nreset\n$m0 << EOD\n"
+        << data(map, map.solution, range.low) << "EOD\n"
+        << panels.begin(file, solution_title(map), symbol(map) + " [unit of the solution]")
+        << colours(range.low, high) << panels.panel(0, map.quantity) << plot(map, 0)
+        << SmallMultiples::next() << SmallMultiples::end();
+    return out.str();
+  }
+
+  Table solution_table(const study::ErrorMap &map)
+  {
+    Table table = table_with(symbol(map));
+    add_rows(map, map.solution, number_cell, table);
+    return table;
+  }
+
   Table map_table(const std::vector<study::ErrorMap> &maps)
   {
-    Table table;
-    table.columns = {"method",
-                     "problem",
-                     "series",
-                     "h [length]",
-                     "x [length]",
-                     "y [length]",
-                     "|error of " + maps.front().quantity + "|"};
+    Table table = table_with("|error of " + maps.front().quantity + "|");
     for (const study::ErrorMap &map : maps)
-      for (unsigned int j = 0; j < map.n_y; ++j)
-        for (unsigned int i = 0; i < map.n_x; ++i)
-          if (const double value = map.values[std::size_t{j} * map.n_x + i]; std::isfinite(value))
-            table.rows.push_back(
-                {text_cell(map.method), text_cell(map.problem), text_cell(map.series),
-                 number_cell(map.h), number_cell(map.lower[0] + (i + .5) * block(map, 0)),
-                 number_cell(map.lower[1] + (j + .5) * block(map, 1)), error_cell(value)});
+      add_rows(map, map.values, error_cell, table);
     return table;
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/formats.h"
+#include "report/selection.h"
 #include "study/results.h"
 
 #include <string>
@@ -26,6 +27,22 @@ namespace plumbline::report
   /// The commands that draw all maps into one picture, side by side on one colour scale.
   /// @pre  at least one map
   std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file);
+
+  /// The solution of a map: of the first Galerkin method that has one, or else of the method with
+  /// the smallest error; nullptr if none has one.
+  /// @param methods  with their families
+  const study::ErrorMap *solution_map(const std::vector<study::ErrorMap> &maps,
+                                      const std::vector<MethodName> &methods);
+
+  /// "case1, m = 3, h = 0.05: the solution by Q1".
+  std::string solution_title(const study::ErrorMap &map);
+
+  /// The commands that draw the solution of a map on a linear scale of colours.
+  /// @pre  it has a solution
+  std::string solution_script(const study::ErrorMap &map, const std::string &file);
+
+  /// One row for each block inside the domain, at its centre: the solution there.
+  Table solution_table(const study::ErrorMap &map);
 
   /// One row for each block inside the domain, at its centre.
   Table map_table(const std::vector<study::ErrorMap> &maps);

@@ -24,8 +24,9 @@ namespace plumbline::report::page
 
     const Group groups[] = {
         {ChartKind::work_precision, "work", false}, {ChartKind::convergence, "convergence", false},
-        {ChartKind::error_map, "maps", false},      {ChartKind::memory, "memory", true},
-        {ChartKind::pairs, "pairs", true},          {ChartKind::iterations, "iterations", true}};
+        {ChartKind::solution, "solution", false},   {ChartKind::error_map, "maps", false},
+        {ChartKind::memory, "memory", true},        {ChartKind::pairs, "pairs", true},
+        {ChartKind::iterations, "iterations", true}};
 
     /// What is in no method's work: meshes, and cells of nodes, of the dearest level.
     std::string geometry_words(const study::StudyResults &results)
@@ -71,7 +72,8 @@ namespace plumbline::report::page
             of_overall.size() == 1 && chart.problem == of_overall.front().problem &&
             is_overall(all.front()))
           continue;
-        const bool is_main = group.kind == ChartKind::error_map || chart.problem == main_problem;
+        const bool is_main = group.kind == ChartKind::error_map ||
+                             group.kind == ChartKind::solution || chart.problem == main_problem;
         const bool is_large = !group.is_minor && (!are_many || (is_main && large.empty()));
         (is_large ? large : small)
             .push_back(figure({dir / "charts" / (chart.name + ".svg"),

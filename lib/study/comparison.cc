@@ -122,6 +122,16 @@ namespace plumbline::study
       return sum;
     }
 
+    std::vector<double> nodal_values(const Field &field, const std::vector<dealii::Point<2>> &nodes,
+                                     unsigned int n_components)
+    {
+      std::vector<double> values;
+      for (const dealii::Point<2> &node : nodes)
+        for (unsigned int c = 0; c < n_components; ++c)
+          values.push_back(field.value(node, c));
+      return values;
+    }
+
     Accumulator averages_difference(const problem::Problem<2> &problem,
                                     const std::vector<double> &a, const std::vector<double> &b)
     {
@@ -311,6 +321,21 @@ namespace plumbline::study
     return least;
   }
 
+  void BlockMeans::add(std::size_t block, const double *u, unsigned int n_components)
+  {
+    sum_[block] +=
+        n_components == 1 ? *u : std::sqrt(std::inner_product(u, u + n_components, u, 0.));
+    ++n_[block];
+  }
+
+  std::vector<double> BlockMeans::means() const
+  {
+    std::vector<double> means;
+    for (std::size_t i = 0; i < n_.size(); ++i)
+      means.push_back(n_[i] > 0 ? sum_[i] / n_[i] : std::numeric_limits<double>::quiet_NaN());
+    return means;
+  }
+
   ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem,
                      const Solution &solution, const std::vector<double> &reference)
   {
@@ -329,34 +354,38 @@ namespace plumbline::study
                  map.lower[1] + map.h * per_block * map.n_y};
     map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
                       std::numeric_limits<double>::quiet_NaN());
-    const auto enter = [&](const dealii::Point<2> &x, double difference)
+    map.n_components = problem.n_components;
+    // nodes on the boundary, or beyond it, belong to the last or first block
+    const auto block_of = [&](const dealii::Point<2> &x)
     {
       std::array<std::size_t, 2> block{};
       for (unsigned int d = 0; d < 2; ++d)
-        // nodes on the boundary, or beyond it, belong to the last or first block
         block[d] =
             std::min<std::size_t>(static_cast<std::size_t>(std::max(
                                       0., (x[d] - box.lower[d]) / (map.h * per_block) + 1e-9)),
                                   (d == 0 ? map.n_x : map.n_y) - 1);
-      double &value = map.values[block[1] * map.n_x + block[0]];
-      value = std::fmax(value, std::abs(difference)); // takes the number where it is still NaN
+      return block[1] * map.n_x + block[0];
     };
-
-    if (problem.solution && quantity(decisive) == scene::Quantity::nodal)
+    const bool is_nodal = problem.solution && quantity(decisive) == scene::Quantity::nodal;
+    map.quantity = is_nodal ? "nodal values" : "cell averages";
+    const std::vector<dealii::Point<2>> points =
+        is_nodal ? solution.nodes : comparison_points(problem);
+    const std::vector<double> &u = is_nodal ? solution.nodal : solution.averages;
+    std::vector<double> right = reference;
+    if (is_nodal)
+      right = nodal_values(*problem.solution, points, map.n_components);
+    else if (problem.solution)
+      right = cell_averages(*problem.solution, problem);
+    BlockMeans means(map.values.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      map.quantity = "nodal values";
-      for (std::size_t i = 0; i < solution.nodes.size(); ++i)
-        for (unsigned int c = 0; c < problem.n_components; ++c)
-          enter(solution.nodes[i], solution.nodal[i * problem.n_components + c] -
-                                       problem.solution->value(solution.nodes[i], c));
-      return map;
+      const std::size_t block = block_of(points[i]), first = i * map.n_components;
+      means.add(block, &u[first], map.n_components);
+      for (std::size_t k = first; k < first + map.n_components; ++k)
+        map.values[block] = // takes the number where it is still NaN
+            std::fmax(map.values[block], std::abs(u[k] - right[k]));
     }
-    map.quantity = "cell averages";
-    const std::vector<double> target =
-        problem.solution ? cell_averages(*problem.solution, problem) : reference;
-    const auto points = comparison_points(problem);
-    for (std::size_t i = 0; i < target.size(); ++i)
-      enter(points[i / problem.n_components], solution.averages[i] - target[i]);
+    map.solution = means.means();
     return map;
   }
 

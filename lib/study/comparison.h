@@ -63,9 +63,25 @@ namespace plumbline::study
   /// divisor of both extents if there is a near one.
   int cells_per_block(const std::array<int, 2> &n);
 
+  /// What maps show of solutions: in each block the mean of u, of |u| if it is a vector.
+  class BlockMeans
+  {
+  public:
+    explicit BlockMeans(std::size_t n_blocks) : sum_(n_blocks), n_(n_blocks) {}
+
+    /// @param u  at a place of the block, n_components numbers
+    void add(std::size_t block, const double *u, unsigned int n_components);
+
+    /// NaN where a block has no place.
+    std::vector<double> means() const;
+
+  private:
+    std::vector<double> sum_, n_;
+  };
+
   /// The errors of nodal values, if the decisive error is nodal, or else of cell averages against
   /// the exact solution, or else other averages: the largest in each of at most 32 × 32 blocks of
-  /// cells.
+  /// cells; and the same values of the solution itself.
   /// @param decisive  the norm
   ErrorMap error_map(scene::Norm decisive, const problem::Problem<2> &problem,
                      const Solution &solution, const std::vector<double> &target);

@@ -134,7 +134,7 @@ namespace plumbline::study
   };
 
   /// Where a method errs at the finest level of the last problem and the first series: the largest
-  /// error in each block of cells, of what the decisive error is about.
+  /// error in each block of cells, of what the decisive error is about; and its solution there.
   struct ErrorMap
   {
     std::string method, problem, series;
@@ -144,6 +144,9 @@ namespace plumbline::study
     unsigned int n_x = 0, n_y = 0;          ///< blocks, at most 32 each
     double size = 1;                        ///< of the solution, see size_of()
     std::vector<double> values;             ///< shape (n_y, n_x), NaN outside the domain
+    unsigned int n_components = 1;          ///< of u
+    /// Mean of u in each block, of |u| if it is a vector; as `values`, or empty.
+    std::vector<double> solution = {};
   };
 } // namespace plumbline::study
 

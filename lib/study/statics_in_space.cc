@@ -116,7 +116,8 @@ namespace plumbline::study
       return nearest;
     }
 
-    /// Errors of averages in a layer of cells in the middle: the largest in each block of cells.
+    /// Errors of averages in a layer of cells in the middle: the largest in each block of cells;
+    /// and the solution's averages.
     ErrorMap map_of_layer(const ProblemInSpace &problem, const std::vector<double> &averages,
                           const std::vector<double> &target)
     {
@@ -135,16 +136,22 @@ namespace plumbline::study
                    problem.lattice.coordinate(1, per_block * static_cast<double>(map.n_y))};
       map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
                         std::numeric_limits<double>::quiet_NaN());
+      map.n_components = problem.n_components;
+      BlockMeans means(map.values.size());
       std::size_t place = 0;
       problem.lattice.for_each_cell(
           [&](const std::array<int, 3> &cell)
           {
-            double &value = map.values[static_cast<std::size_t>(cell[1] / per_block) * map.n_x +
-                                       cell[0] / per_block];
+            const std::size_t block =
+                static_cast<std::size_t>(cell[1] / per_block) * map.n_x + cell[0] / per_block;
+            double &value = map.values[block];
+            if (cell[2] == layer)
+              means.add(block, &averages[place], problem.n_components);
             for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
               if (cell[2] == layer)
                 value = std::fmax(value, std::abs(averages[place] - target[place]));
           });
+      map.solution = means.means();
       return map;
     }
 

@@ -90,7 +90,8 @@ namespace
     static const std::regex noise(
         "seconds|_bytes|scene_text|/scene$|folder|file|purpose|n_iterations|most_iterations|"
         "residual|round_off|imbalance|/tied|/cost/|asymmetry|drift|round-off|version|machine|"
-        "omissions|savings|(trends|maps|fields)/.*values/|date|/estimates?/|singular[ _]value|/"
+        "omissions|savings|(trends|maps|fields)/.*(values|solution)/|date|/estimates?/|singular[ "
+        "_]value|/"
         "expectations|n_updates|"
         "factorisations|largest.rank|/updates|/iterations|most "
         "iterations|noise|/rates/|worst/node|advice/[0-9]+/choices/[0-9]+/"

@@ -43,7 +43,9 @@ namespace plumbline::io
   TEST(ResultsFile, IsTheSameAfterARoundTrip)
   {
     const fixture::Folder folder;
-    const study::StudyResults results = fixture::results();
+    study::StudyResults results = fixture::results();
+    results.maps[0].n_components = 2;
+    results.maps[0].solution.assign(results.maps[0].values.size(), -1. / 3);
     write_json(results, folder.path() / "a.json");
     const study::StudyResults back = read_results(folder.path() / "a.json");
 
@@ -113,6 +115,8 @@ namespace plumbline::io
       EXPECT_EQ(map.upper, written.upper);
       EXPECT_EQ(map.n_x, 4u);
       EXPECT_EQ(map.n_y, 3u);
+      EXPECT_EQ(map.n_components, written.n_components);
+      EXPECT_EQ(map.solution, written.solution);
       ASSERT_EQ(map.values.size(), written.values.size());
       for (std::size_t j = 0; j < map.values.size(); ++j)
         if (std::isfinite(written.values[j]))
@@ -230,6 +234,8 @@ namespace plumbline::io
     expect("records[0].cost.peak_bytes is missing");
     damaged("\"n_x\": 4", "\"n_x\": 5");
     expect("maps[0].values has 12 numbers, not n_x * n_y = 15");
+    damaged("\"solution\": []", "\"solution\": [1]");
+    expect("maps[0].solution has 1 numbers, neither none nor n_x * n_y = 12");
     damaged("\"lower\": [", "\"lower\": [3,");
     expect("maps[0].lower is not an array of two numbers");
     damaged("\"h\": 0.1", "\"h\": \"0.1\"");

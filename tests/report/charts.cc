@@ -331,6 +331,35 @@ namespace plumbline::report
     EXPECT_TRUE(holds(script, "'|error of nodal values| [unit of the solution]'"));
   }
 
+  TEST(ReportCharts, DrawTheSolutionOfTheFirstGalerkinMethodOrTheMostAccurateOne)
+  {
+    const fixture::Folder folder;
+    study::StudyResults results = fixture::results();
+    const auto shown = [&] { return solution_map(results.maps, methods(results)); };
+    EXPECT_EQ(shown(), nullptr);
+    for (study::ErrorMap &map : results.maps)
+      map.solution = {-.5, 0, 1, std::nan(""), 0, 0, 0, 0, 0, 0, 0, .25};
+    ASSERT_NE(shown(), nullptr);
+    EXPECT_EQ(shown()->method, "P0"); // Q1 is more accurate
+    ASSERT_EQ(list_charts(results).back().kind, ChartKind::solution);
+    EXPECT_EQ(list_charts(results).back().title, "case1, m = 3, h = 0.1: the solution by P0");
+
+    write_charts(results, folder.path());
+    const std::string svg = fixture::read(folder.path() / "charts" / "solution.svg"),
+                      csv = fixture::read(folder.path() / "charts" / "solution.csv");
+    EXPECT_EQ(fixture::count(svg, "<image style='image-rendering:pixelated'"), 1u);
+    EXPECT_TRUE(holds(svg, ">u [unit of the solution]<"));
+    EXPECT_EQ(fixture::count(csv, "\n"), 1 + 11u); // a head, and blocks inside the domain
+    EXPECT_TRUE(holds(csv, "\nP0,case1,m = 3,0.10000000000000001,0.25,-0.66666666666666"));
+    EXPECT_TRUE(holds(csv, ",-0.5\n"));
+
+    results.maps.resize(3); // of rules alone
+    EXPECT_EQ(shown()->method, "FA");
+    results.maps[0].n_components = 2;
+    EXPECT_TRUE(holds(solution_script(results.maps[0], "a.svg"), "'|u| [unit of the solution]'"));
+    EXPECT_TRUE(holds(solution_script(results.maps[0], "a.svg"), "set cbrange [-0.5:1]\n"));
+  }
+
   TEST(ReportCharts, HaveRangesWithTwoPowersOfTen)
   {
     for (const std::vector<double> &values : std::vector<std::vector<double>>{

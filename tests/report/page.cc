@@ -221,6 +221,14 @@ namespace plumbline::report
     const std::size_t image = html.find("<image style='image-rendering:pixelated'", head);
     ASSERT_NE(image, std::string::npos);
     EXPECT_LT(image, html.find("</section>", head));
+    EXPECT_FALSE(holds(html, "<h2>The solution"));
+    results.maps.front().solution = results.maps.front().values;
+    const std::string with_solution = page_of(results);
+    const std::size_t solution = with_solution.find("<h2>The solution");
+    ASSERT_NE(solution, std::string::npos);
+    EXPECT_LT(solution, with_solution.find("<h2>Where the error sits"));
+    EXPECT_LT(with_solution.find("<image", solution), with_solution.find("</section>", solution));
+    EXPECT_TRUE(holds(with_solution, "href=\"#solution\""));
     results.maps.clear();
     EXPECT_FALSE(holds(page_of(results), "#maps"));
     EXPECT_FALSE(holds(page_of(results), "Where the error sits"));

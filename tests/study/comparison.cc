@@ -187,7 +187,26 @@ TEST(ErrorMap, shows_each_error_in_its_block_and_nothing_outside)
     EXPECT_NEAR(map.values[8 + 2], is_nodal ? 7 + 1. / 64 : 7 - 1. / 64, 1e-12);
     EXPECT_NEAR(map.values[8 + 3], 1. / 64, 1e-12);
     EXPECT_TRUE(std::isnan(map.values[63]));
+    const auto &u = is_nodal ? solution.nodal : solution.averages;
+    ASSERT_EQ(map.solution.size(), 64u);
+    for (const std::size_t cell : {8 + 2, 8 + 3})
+      EXPECT_EQ(map.solution[cell], u[cell]);
+    EXPECT_TRUE(std::isnan(map.solution[63]));
+    EXPECT_EQ(map.n_components, 1u);
   }
+}
+
+TEST(BlockMeans, are_of_values_with_their_sign_or_of_magnitudes)
+{
+  const std::vector<double> u = {-3, 4, 6, 8};
+  BlockMeans scalar(2), vector(1);
+  for (const double &value : u)
+    scalar.add(0, &value, 1);
+  vector.add(0, &u[0], 2);
+  vector.add(0, &u[2], 2);
+  EXPECT_EQ(scalar.means()[0], 15. / 4);
+  EXPECT_TRUE(std::isnan(scalar.means()[1]));
+  EXPECT_EQ(vector.means()[0], 7.5); // of 5 and 10
 }
 
 TEST(Sweep, judges_checks_and_resumes)

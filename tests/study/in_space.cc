@@ -209,6 +209,7 @@ TEST(StaticsInSpace, are_drawn_and_written)
   ASSERT_EQ(results.maps.size(), 1u);
   EXPECT_EQ(results.maps[0].quantity, "averages at z = 0.5625");
   EXPECT_EQ(results.maps[0].values.size(), 64u);
+  EXPECT_EQ(results.maps[0].solution.size(), 64u);
   EXPECT_NE(report::fixture::read(folder.path() / "field.vti").find("WholeExtent=\"0 8 0 8 0 8 \""),
             std::string::npos);
   report::write_report(results, folder.path());
