@@ -127,6 +127,7 @@ namespace plumbline::app
 
   int analyse(const MakeRow &make_row, const AnalyseOptions &options)
   {
+    end_at_interrupts();
     return analyse(make_row, options, read_alone(options));
   }
 

@@ -8,10 +8,10 @@
 #include "check_text.h"
 #include "methods.h"
 #include "output_folder.h"
+#include "run_parts.h"
 #include "scene/scene_keys.h"
 #include "study/method_names.h"
 
-#include <csignal>
 #include <iostream>
 
 namespace plumbline::app
@@ -40,20 +40,12 @@ namespace plumbline::app
             "constrained" +
             bodies);
     }
-
-    /// A user's interrupt ends it at once, also where the parent process ignores it: nothing is
-    /// written before the end.
-    void obey_interrupts()
-    {
-      for (const int signal : {SIGINT, SIGTERM})
-        std::signal(signal, SIG_DFL);
-    }
   } // namespace
 
   int check(const CheckOptions &options)
   {
+    end_at_interrupts();
     const Requirements required = parse_requirements(options.required);
-    obey_interrupts();
     refuse_other_bodies(options);
     const scene::Scene scene = study::with_names_of(
         scene::read_scene(options.scene_file, options.overrides), all_methods());

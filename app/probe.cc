@@ -153,7 +153,7 @@ namespace plumbline::app
           nodes.places, {options.horizon, options.step.value_or(usual_step * options.horizon),
                          options.all ? nodes.id.size() : options.n_nodes});
       const ForceProgram<dim> program(options.command, nodes, kind);
-      watch_interrupts();
+      watch_interrupts("\ninterrupted: ending the command\n");
       ProbeFindings found;
       {
         ProgressLine progress(!options.quiet);
@@ -196,6 +196,7 @@ namespace plumbline::app
     if (!kind)
       throw InputError("--forces-are = '" + options.forces_are +
                        "' is not known; choose of 'forces', 'densities'");
+    end_at_interrupts();
     try
     {
       return is_in_space(options.nodes_file) ? probe_in<3>(options, *kind)

@@ -216,6 +216,7 @@ namespace plumbline::app
 
   int run(const RunOptions &options)
   {
+    end_at_interrupts();
     if (!(options.budget >= 0))
       throw InputError("--budget is negative; give CPU seconds of a solve, or leave it out");
     const scene::Scene scene = read_scene(options);

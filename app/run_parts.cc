@@ -7,7 +7,10 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -18,11 +21,37 @@ namespace plumbline::app
   namespace
   {
     volatile std::sig_atomic_t interrupted = 0;
+    std::atomic<const char *> notice = ""; ///< of the handlers
+
+    /// Async-signal-safe.
+    void write_notice()
+    {
+      const int error = errno;
+      const char *const text = notice;
+      (void)!write(STDERR_FILENO, text, std::strlen(text));
+      errno = error;
+    }
+
     /// The first signal ends the run after the present solve; a second one ends it at once.
     void on_interrupt(int signal)
     {
       interrupted = 1;
       std::signal(signal, SIG_DFL);
+      write_notice();
+    }
+
+    void end_on_interrupt(int signal)
+    {
+      std::signal(signal, SIG_DFL);
+      write_notice();
+      std::raise(signal); // is delivered when this handler returns
+    }
+
+    void handle_interrupts(const char *text, void (*handler)(int))
+    {
+      notice = base::Communicator::all().rank() == 0 ? text : "";
+      for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, handler);
     }
 
     std::string processor()
@@ -35,10 +64,15 @@ namespace plumbline::app
     }
   } // namespace
 
-  void watch_interrupts()
+  void end_at_interrupts()
   {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    handle_interrupts("\ninterrupted: no results are written, or not all of them\n",
+                      end_on_interrupt);
+  }
+
+  void watch_interrupts(const char *text)
+  {
+    handle_interrupts(text, on_interrupt);
   }
 
   bool is_interrupted()

@@ -13,9 +13,16 @@
 // What commands that solve have in common.
 namespace plumbline::app
 {
+  /// From now on SIGINT or SIGTERM ends the process, with a line on standard error, also where the
+  /// parent process ignores them.
+  void end_at_interrupts();
+
   /// From now on the first SIGINT or SIGTERM asks to end after the present solve; a second one ends
   /// the process.
-  void watch_interrupts();
+  /// @param notice  is written at the first signal, and outlives all of them
+  void watch_interrupts(const char *notice =
+                            "\ninterrupted: finishing the current solve or time step, then writing "
+                            "what is done; press Ctrl-C again to stop at once\n");
   bool is_interrupted();
 
   /// Says on the terminal where the results of an interrupted command are, which it takes over when

@@ -218,6 +218,8 @@ namespace plumbline::app
 
   int sample(const SampleOptions &options)
   {
+    if (!options.is_worker)
+      end_at_interrupts();
     const scene::Scene scene = read(options);
     const study::SamplingPlan plan = study::make_sampling_plan(scene);
     const fs::path folder = output_folder(options, scene);
@@ -234,7 +236,8 @@ namespace plumbline::app
           if (communicator.rank() == 0 && !files.are_there())
             files.begin();
         });
-    watch_interrupts();
+    watch_interrupts("\ninterrupted: ending the sampling processes, then writing the results of "
+                     "finished samples; press Ctrl-C again to stop at once\n");
     take_all(options, scene, plan, files, folder);
     communicator.wait();
     if (communicator.rank() != 0)

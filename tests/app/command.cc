@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <iostream>
 #include <sstream>
+#include <sys/stat.h>
 #include <thread>
 
 namespace
@@ -217,7 +219,8 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   const std::string arguments = scene + " -o " + folder.string() + settings;
 
   // interrupt as soon as the first result is stored
-  const pid_t child = start("run " + arguments);
+  const fs::path err = temporary("interrupted_err");
+  const pid_t child = start("run " + arguments, err.string());
   for (int i = 0; i < 6000 && !fs::exists(folder / "results.jsonl"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, SIGINT);
@@ -225,6 +228,10 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
+  const std::string said = read(err);
+  expect_found(said, "\ninterrupted: finishing the current solve");
+  EXPECT_LT(said.find("press Ctrl-C again"), said.find("the same command continues"));
+  fs::remove(err);
   expect_found(read(folder / "results.json"), "\"is_complete\": false");
   EXPECT_TRUE(fs::exists(folder / "report.html"));
   EXPECT_FALSE(fs::exists(folder / "results.jsonl"));
@@ -233,6 +240,35 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   EXPECT_EQ(rest.exit_code, 0);
   expect_found(rest.err, "continuing: ");
   expect_found(read(folder / "results.json"), "\"is_complete\": true");
+}
+
+// while it waits for a file that is a pipe
+TEST(Command, interrupted_before_its_first_solve_ends_with_a_message)
+{
+  const std::string check = std::string(PLUMBLINE_SCENES) + "/check/";
+  const fs::path pipe = temporary("pipe.prm"), err = temporary("pipe_err");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string &arguments :
+       {"run " + pipe.string(), "stability " + pipe.string(),
+        "check " + pipe.string() + " " + check + "bonds.csv --scene " + check + "check.prm"})
+  {
+    const pid_t child = start(arguments, err.string());
+    int writing = -1; // it cannot be opened before the command reads
+    for (int i = 0; i < 6000 && writing < 0; ++i)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      writing = open(pipe.c_str(), O_WRONLY | O_NONBLOCK);
+    }
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    close(writing);
+    EXPECT_TRUE(WIFSIGNALED(status)) << arguments;
+    expect_found(read(err), "\ninterrupted: no results are written, or not all of them\n",
+                 arguments);
+  }
+  fs::remove(pipe);
+  fs::remove(err);
 }
 
 TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)

@@ -71,13 +71,14 @@ namespace plumbline::app
   }
 
   /// The command itself beside the test, silent. @return its process
-  inline pid_t start(const std::string &arguments)
+  /// @param err  file for standard error
+  inline pid_t start(const std::string &arguments, const std::string &err = "/dev/null")
   {
     const pid_t child = fork();
     if (child == 0)
     {
       const std::string command =
-          std::string("exec ") + PLUMBLINE_COMMAND + " " + arguments + " >/dev/null 2>&1";
+          std::string("exec ") + PLUMBLINE_COMMAND + " " + arguments + " >/dev/null 2>" + err;
       execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char *>(nullptr));
       _exit(127);
     }
