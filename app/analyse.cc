@@ -137,6 +137,7 @@ namespace plumbline::app
       throw InputError(
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
+    std::optional<ProgressLine> progress(!options.quiet);
     const fs::path folder = output_folder(options, scene);
     const study::Checkpoints checkpoints{folder, is_interrupted};
     const AnalysisRow row = make_row(checkpoints);
@@ -145,6 +146,7 @@ namespace plumbline::app
         analysis.choose_methods(scene, all_methods(), options.n_levels, 1);
     if (analysis.check)
       analysis.check(scene, methods, options.n_levels);
+    progress.reset();
     watch_interrupts();
     const OutputFolder output(folder, {row.command, scene.name, scene.text},
                               base::Communicator::alone());
@@ -160,7 +162,7 @@ namespace plumbline::app
     control.budget = options.budget;
     control.should_stop = is_interrupted;
     control.earlier.records = journal.earlier();
-    std::optional<ProgressLine> progress(!options.quiet);
+    progress.emplace(!options.quiet);
     control.on_progress = [&](const std::string &what, double fraction)
     { progress->show(what, fraction); };
     control.on_records = [&](const study::Records &records)

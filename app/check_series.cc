@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace plumbline::app
@@ -78,6 +79,26 @@ namespace plumbline::app
     {
       scene.study.series.front().levels = {level};
       return scene;
+    }
+
+    /// Of each level, with progress by the number of cells.
+    std::vector<Findings> find_all(const scene::Scene &scene,
+                                   const std::vector<problem::Level> &chosen,
+                                   const std::vector<CheckOptions> &files)
+    {
+      double all = 0, done = 0;
+      for (const problem::Level &level : chosen)
+        all += std::pow(level.h, -2);
+      ProgressLine progress(!files.front().quiet && base::Communicator::all().rank() == 0);
+      std::vector<Findings> levels;
+      for (std::size_t k = 0; k < chosen.size(); ++k)
+      {
+        progress.show("level " + std::to_string(k + 1) + " of " + std::to_string(chosen.size()),
+                      done / all);
+        levels.push_back(find(at_level_alone(scene, chosen[k]), files[k]));
+        done += std::pow(chosen[k].h, -2);
+      }
+      return levels;
     }
 
     /// In norms that a check takes: others rest on what the weights do not give.
@@ -214,13 +235,12 @@ namespace plumbline::app
     const std::vector<problem::Level> chosen = levels_with_files(scene, options);
     scene.study.series.front().levels = chosen;
     std::vector<CheckOptions> files(chosen.size(), options);
-    std::vector<Findings> levels;
     for (std::size_t k = 0; k < chosen.size(); ++k)
     {
       files[k].nodes_file = at(options.nodes_file, chosen[k].h);
       files[k].bonds_file = at(options.bonds_file, chosen[k].h);
-      levels.push_back(find(at_level_alone(scene, chosen[k]), files[k]));
     }
+    const std::vector<Findings> levels = find_all(scene, chosen, files);
     const study::StudyResults results = conclude(scene, levels);
     const std::vector<study::Trend> trends = trends_of(results);
     const std::vector<std::string> wrong = complaints_of(levels, trends, required);

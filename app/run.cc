@@ -22,6 +22,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 namespace plumbline::app
 {
@@ -228,6 +229,7 @@ namespace plumbline::app
     // every rank runs the scene, and they share the work on meshes; the first one talks and writes
     const base::Communicator communicator = base::Communicator::all();
     const bool is_first = communicator.rank() == 0, is_quiet = options.quiet || !is_first;
+    std::optional<ProgressLine> preparing(!is_quiet);
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
     PointValues points(scene);
@@ -236,6 +238,7 @@ namespace plumbline::app
     const method::Methods methods =
         statics.choose_methods(scene, all_methods(), options.n_levels, 1);
     statics.check(scene, methods, options.n_levels);
+    preparing.reset();
     const OutputFolder output(folder, {"run", scene.name, scene.text}, communicator);
     const study::StudyResults earlier = begin_results(folder, scene, methods, communicator);
     tell_beginning(earlier, folder, communicator, is_quiet);

@@ -128,10 +128,13 @@ namespace plumbline::app
 
   void ProgressLine::run()
   {
-    const std::chrono::seconds pause(is_terminal_ ? 1 : 10);
+    std::chrono::seconds pause(1);
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, pause, [this] { return is_done_; }))
+    {
       print();
+      pause = std::chrono::seconds(is_terminal_ ? 1 : 10);
+    }
   }
 
   void ProgressLine::print() const

@@ -34,7 +34,8 @@ namespace plumbline::app
   std::map<std::string, std::string> provenance();
 
   /// What is being done, for how long, and how long it may still take: on a terminal a line that is
-  /// rewritten every second, elsewhere a line every 10 seconds. On standard error.
+  /// rewritten every second, elsewhere a line after one second and then every 10 seconds. On
+  /// standard error.
   class ProgressLine
   {
   public:

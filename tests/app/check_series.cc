@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <sys/stat.h>
 
 namespace
 {
@@ -49,7 +50,7 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
   const fs::path out = folder_ / "out";
   const Outcome outcome = check_all("-o " + out.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(without_progress(outcome.err), "");
   expect_found(outcome.out, "wave, nodal Linf | exact: AC; ");
   expect_found(outcome.out, "\nas required\n");
   const auto json = nlohmann::json::parse(read(out / "check.json"));
@@ -88,6 +89,29 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
     EXPECT_NEAR(rates[k], std::log2(errors[k - 1] / errors[k]), 1e-12) << k;
   for (const double h : sizes_)
     EXPECT_TRUE(fs::exists(out / ("h_" + text_of(h)) / "report.html")) << h;
+}
+
+// the bonds of the first level come late
+TEST_F(CheckSeries, tells_the_level_that_takes_longer_than_a_second)
+{
+  for (const double h : {.125, .0625})
+    write_level("FA", h);
+  const fs::path bonds = folder_ / "bonds_0.125.csv", err = folder_ / "err";
+  const std::string rows = read(bonds);
+  fs::remove(bonds);
+  ASSERT_EQ(mkfifo(bonds.c_str(), 0600), 0);
+  const std::string base = folder_.string();
+  const pid_t child = start("check " + base + "/nodes_{h}.csv " + base + "/bonds_{h}.csv --scene " +
+                                scene_file + " --json",
+                            err.string());
+  std::ofstream pipe(bonds);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  pipe << rows;
+  pipe.close();
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  expect_found(read(err), "  0 %  level 1 of 2, ");
 }
 
 TEST_F(CheckSeries, says_that_errors_stall)

@@ -1,6 +1,7 @@
 // The command as a user meets it: exit codes, messages on stderr, files.
 
 #include "command.h"
+#include "app/run_parts.h"
 #include "app/summary.h"
 
 #include <nlohmann/json.hpp>
@@ -34,7 +35,7 @@ TEST(Command, writes_everything_that_a_report_needs)
                               "Output/fields=true --set Expected/verdicts=");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "not AC");
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(without_progress(outcome.err), "");
   for (const std::string file :
        {"results.json", "report.html", "tables/verdicts.csv", "tables/cost.md",
         "charts/work-precision.svg", "fields/case1_m___3_Q1.vtu", "fields/case1_m___3_IPA_AC.vtu"})
@@ -269,6 +270,19 @@ TEST(Command, interrupted_before_its_first_solve_ends_with_a_message)
   }
   fs::remove(pipe);
   fs::remove(err);
+}
+
+TEST(ProgressLine, is_printed_after_a_second_and_then_rarely)
+{
+  testing::internal::CaptureStderr(); // a file, no terminal
+  {
+    ProgressLine line(true);
+    line.show("level 1 of 2", .25);
+    std::this_thread::sleep_for(std::chrono::milliseconds(3500));
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  expect_found(text, " 25 %  level 1 of 2, ");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
 TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)

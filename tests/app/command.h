@@ -123,6 +123,12 @@ namespace plumbline::app
         << text << where;
   }
 
+  /// Standard error but for lines of progress, which depend on the time that is taken.
+  inline std::string without_progress(const std::string &err)
+  {
+    return std::regex_replace(err, std::regex(" *[0-9]+ %  [^\n]*\n"), "");
+  }
+
   /// The words of a command as a shell tells them apart.
   class Words
   {
