@@ -158,7 +158,10 @@ namespace plumbline::app
   void print_summary(const StudyResults &results, const std::filesystem::path &folder)
   {
     print(report::heading(results.scene_name, results.purpose));
-    std::cout << '\n';
+    for (const auto &[what, value] : results.facts)
+      print(what + ": " + value);
+    if (results.facts.empty())
+      std::cout << '\n';
     print(results.decisive_error + " (compared with " + study::target_words(results) + ")");
     print_trends(results);
     for (const std::string &warning : results.warnings)

@@ -69,7 +69,12 @@ namespace plumbline::report::page
     for (const study::Omission &omission : results.omissions)
       omissions.rows.push_back(
           {text_cell(omission.what), text_cell(omission.why), text_cell(omission.saving)});
-    return {{"omissions", table(omissions)},
+    Table constants;
+    constants.columns = {"constant", "value"};
+    for (const auto &[what, value] : results.facts)
+      constants.rows.push_back({text_cell(what), text_cell(value)});
+    return {{"constants", table(constants)},
+            {"omissions", table(omissions)},
             {"savings", table(saving_table(results))},
             {"n_checks", n_checks == 0 ? Data() : Data(n_checks)},
             {"n_runs", n_runs},

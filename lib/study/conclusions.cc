@@ -272,6 +272,14 @@ namespace plumbline::study
         }
     }
 
+    /// At the first horizon.
+    void list_constants(const scene::Scene &scene, StudyResults &results)
+    {
+      const double horizon = scene.study.series.front().levels.front().horizon;
+      for (const auto &[what, value] : scene.material.model->derived_constants(scene, horizon))
+        results.facts[what] = value;
+    }
+
     void list_omissions(const scene::Scene &scene, StudyResults &results)
     {
       const Record *largest = nullptr;
@@ -351,6 +359,7 @@ namespace plumbline::study
     warn_of_tip_forces(results);
     check_expectations(scene, results);
     give_advice(scene, results);
+    list_constants(scene, results);
     list_omissions(scene, results);
   }
 } // namespace plumbline::study

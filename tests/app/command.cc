@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fcntl.h>
 #include <iostream>
@@ -270,6 +271,27 @@ TEST(Command, interrupted_before_its_first_solve_ends_with_a_message)
   }
   fs::remove(pipe);
   fs::remove(err);
+}
+
+// c = 72 kappa / (5 pi delta^4) for rho = 1/t, kappa = 2 E / 3 in plane strain
+TEST(Command, prints_the_micromodulus_that_follows_from_E)
+{
+  const std::string file = write("tensor.prm", run("template tensor").out);
+  const fs::path folder = temporary("micromodulus");
+  const Outcome outcome = run("run " + file +
+                              " --levels 1 --methods FA --set Material/E=3 --set "
+                              "Study/h=0.1 --set Study/m=3 -o " +
+                              folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string name = "micromodulus c, C = c ρ(|ξ|/δ) ξ⊗ξ/|ξ|²";
+  expect_found(outcome.out, "\n" + name + ": ");
+  const auto json = nlohmann::json::parse(read(folder / "results.json"));
+  const std::string value = json.at("facts").at(name);
+  const double c = 72 * 2 / (5 * M_PI * std::pow(.3, 4));
+  EXPECT_NEAR(std::stod(value), c, 1e-5 * c);
+  expect_found(value, " [force/length^6] at δ = 0.3, proportional to δ^-4");
+  expect_found(read(folder / "report.html"), "force/length^6");
+  fs::remove_all(folder);
 }
 
 TEST(ProgressLine, is_printed_after_a_second_and_then_rarely)

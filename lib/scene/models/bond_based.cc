@@ -78,6 +78,20 @@ namespace plumbline::scene
         return kernel_of<3>(scene, horizon);
       }
 
+      std::vector<std::pair<std::string, std::string>>
+      derived_constants(const Scene &scene, double horizon) const override
+      {
+        const unsigned int dimension = scene.domain.dimension;
+        if (dimension == 1 || !scene.material.modulus_of_bonds(dimension))
+          return {};
+        const double c = scene.domain.is_in_space() ? kernel_in_space(scene, horizon).constant()
+                                                    : kernel(scene, horizon).constant();
+        return {{"micromodulus c, C = c ρ(|ξ|/δ) ξ⊗ξ/|ξ|²",
+                 base::to_text(c, 6) + " [force/length^" + std::to_string(dimension + 4) +
+                     "] at δ = " + base::to_text(horizon, 6) + ", proportional to δ^-" +
+                     std::to_string(dimension + 2)}};
+      }
+
       std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
                                                              double horizon) const override
       {
@@ -86,9 +100,13 @@ namespace plumbline::scene
                                               : kernel(scene, horizon).limit();
         const auto speed = [&](double modulus)
         { return base::to_text(std::sqrt(modulus / scene.time.density), 6); };
+        auto facts = derived_constants(scene, horizon);
         if (scene.is_vector())
-          return {{"speeds of long waves c_L, c_T", speed(3 * limit.mu) + ", " + speed(limit.mu)}};
-        return {{"speed of long waves", speed(limit.diffusion)}};
+          facts.emplace_back("speeds of long waves c_L, c_T",
+                             speed(3 * limit.mu) + ", " + speed(limit.mu));
+        else
+          facts.emplace_back("speed of long waves", speed(limit.diffusion));
+        return facts;
       }
     };
   } // namespace

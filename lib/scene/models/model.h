@@ -79,6 +79,14 @@ namespace plumbline::scene
     /// Adds the model's other data to a problem.
     virtual void complete(const Scene &, const Level &, Problem &) const {}
 
+    /// The constants of its bonds that follow from Material/E, with units, as pairs of description
+    /// and value.
+    virtual std::vector<std::pair<std::string, std::string>>
+    derived_constants(const Scene &, double /*horizon*/) const
+    {
+      return {};
+    }
+
     /// Its constants as pairs of description and value, for transient reports.
     virtual std::vector<std::pair<std::string, std::string>> facts(const Scene &,
                                                                    double /*horizon*/) const
