@@ -71,19 +71,17 @@ namespace plumbline::app
     if (base::Communicator::all().rank() != 0)
       return exit_code;
     const bool is_silent = options.quiet || options.json;
+    const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
+                                                   : fs::path(options.output);
     if (options.json)
       std::cout << check_json(found, required, options, exit_code);
     else if (!options.quiet)
-      std::cout << check_text(found, required, options);
+      std::cout << check_text(found, required, options, (folder / "report.html").string());
     if (is_silent && options.output.empty())
       return exit_code;
-    const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
-                                                   : fs::path(options.output);
     const OutputFolder output(folder, {"check", scene.name, scene.text},
                               base::Communicator::alone());
     write_check(found, required, options, exit_code, folder);
-    if (!is_silent)
-      std::cout << "written: " << (folder / "report.html").string() << '\n';
     return exit_code;
   }
 } // namespace plumbline::app

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "check_text.h"
 #include "io/results_json.h"
 #include "meshfree/check/bond_values.h"
 #include "output_folder.h"
@@ -161,13 +162,11 @@ namespace plumbline::app
       std::cout << json;
     else if (!options.quiet)
     {
-      constexpr std::size_t n_columns = 120, indent = 2;
-      for (const std::vector<std::string> &lines : {words_of(found, given), wrong})
-        for (const std::string &line : lines)
-          std::cout << report::wrapped(line, n_columns, indent) << '\n';
-      if (wrong.empty())
-        std::cout << "the weights have the properties that are required\n";
-      std::cout << "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";
+      std::string body;
+      for (const std::string &line : words_of(found, given))
+        body += report::wrapped(line, report::summary_columns, 2) + '\n';
+      body += "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";
+      std::cout << check_summary(body, wrong, wrong.empty() ? "as required" : "NOT as required");
     }
     if (!options.output.empty())
     {

@@ -28,8 +28,6 @@ namespace plumbline::app
 
   namespace
   {
-    constexpr std::size_t n_columns = 120, indent = 2;
-
     bool has_mark(const std::string &file)
     {
       return file.find(scene::NodeSource::level_mark) != std::string::npos;
@@ -203,20 +201,23 @@ namespace plumbline::app
 
     std::string text_of(const study::StudyResults &results, const Table &table,
                         const std::vector<study::Trend> &trends,
-                        const std::vector<std::string> &wrong)
+                        const std::vector<std::string> &wrong, const std::string &page)
     {
       constexpr std::size_t most_complaints = 6;
-      std::string text = report::heading(results.scene_name, results.purpose) + "\n\n" +
-                         report::to_text(report::without_empty_columns(table), n_columns) + "\n";
-      const auto add = [&](const std::string &sentence)
-      { text += report::wrapped(sentence, n_columns, indent) + "\n"; };
+      std::vector<std::string> sentences;
       for (std::size_t i = 0; i < std::min(most_complaints, wrong.size()); ++i)
-        add(wrong[i]);
+        sentences.push_back(wrong[i]);
       if (wrong.size() > most_complaints)
-        add("and " + std::to_string(wrong.size() - most_complaints) + " more in check.json");
+        sentences.push_back("and " + std::to_string(wrong.size() - most_complaints) +
+                            " more in check.json");
       for (const study::Trend &trend : trends)
-        add(trend.problem + ", " + trend.error + ": " + trend.verdict + "; " + trend.reason);
-      return text + (wrong.empty() ? "as required\n" : "NOT as required\n");
+        sentences.push_back(trend.problem + ", " + trend.error + ": " + trend.verdict + "; " +
+                            trend.reason);
+      return check_summary(
+          report::heading(results.scene_name, results.purpose) + "\n\n" +
+              report::to_text(report::without_empty_columns(table), report::summary_columns) +
+              "report: " + page + "\n",
+          sentences, wrong.empty() ? "as required" : "NOT as required");
     }
   } // namespace
 
@@ -255,15 +256,16 @@ namespace plumbline::app
     json["complaints"] = wrong;
     json["exit_code"] = exit_code;
     const std::string all = json.dump(2) + "\n";
+    const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
+                                                   : fs::path(options.output);
     if (options.json)
       std::cout << all;
     else if (!options.quiet)
-      std::cout << text_of(results, table_of(levels, trends), trends, wrong);
+      std::cout << text_of(results, table_of(levels, trends), trends, wrong,
+                           (folder / "report.html").string());
     const bool is_silent = options.quiet || options.json;
     if (is_silent && options.output.empty())
       return exit_code;
-    const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
-                                                   : fs::path(options.output);
     const OutputFolder output(folder, {"check", scene.name, scene.text},
                               base::Communicator::alone());
     report::write_file(folder / "check.json", all);
@@ -276,8 +278,6 @@ namespace plumbline::app
                   own);
     }
     report::write_report(results, folder);
-    if (!is_silent)
-      std::cout << "written: " << (folder / "report.html").string() << '\n';
     return exit_code;
   }
 } // namespace plumbline::app

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "report/text_table.h"
+#include "report/view.h"
 #include "study/solution_record.h"
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@ namespace plumbline::app
 
   namespace
   {
-    constexpr std::size_t n_columns = 120;
+    constexpr std::size_t n_columns = report::summary_columns;
 
     void tell_nodes(std::ostream &out, const Findings &found, const CheckOptions &options)
     {
@@ -96,25 +97,53 @@ namespace plumbline::app
     }
   } // namespace
 
+  std::string check_summary(const std::string &body, const std::vector<std::string> &sentences,
+                            const std::string &answer)
+  {
+    constexpr std::size_t most = 15, indent = 2;
+    const std::string where = "lines in the report";
+    const auto lines_of_each = [&](std::size_t n)
+    {
+      std::vector<std::string> lines;
+      for (const std::string &sentence : sentences)
+        for (const std::string &line : report::short_lines(sentence, n, indent))
+          lines.push_back(report::fitted(line, n_columns));
+      return lines;
+    };
+    std::vector<std::string> end = lines_of_each(most);
+    if (end.size() > most)
+      end = report::first_lines(lines_of_each(1), most, where);
+    end.push_back(answer);
+    std::vector<std::string> lines;
+    for (const std::string &line : report::lines_of(body))
+      for (const std::string &part :
+           report::lines_of(report::wrapped(line, n_columns, indent) + '\n'))
+        lines.push_back(part);
+    std::string text;
+    for (const std::string &line :
+         report::first_lines(lines, report::summary_lines - end.size() - 1, where))
+      text += line + '\n';
+    text += '\n';
+    for (const std::string &line : end)
+      text += line + '\n';
+    return text;
+  }
+
   std::string check_text(const Findings &found, const Requirements &required,
-                         const CheckOptions &options)
+                         const CheckOptions &options, const std::string &page)
   {
     std::ostringstream out;
-    out << std::setprecision(4);
+    out << std::setprecision(4) << "report    " << page << '\n';
     tell_nodes(out, found, options);
     tell_moments(out, found);
     tell_elastic(out, found);
-    tell_operator(out, found);
     for (const CaseCheck &one : found.cases)
       tell_solution(out, one);
-    out << '\n';
-    constexpr std::size_t indent = 2;
+    tell_operator(out, found);
+    std::vector<std::string> sentences = verdicts(found);
     const auto wrong = complaints(found, required);
-    for (const std::vector<std::string> &sentences : {verdicts(found), wrong})
-      for (const std::string &sentence : sentences)
-        out << report::wrapped(sentence, n_columns, indent) << '\n';
-    out << (wrong.empty() ? "as required\n" : "NOT as required\n");
-    return out.str();
+    sentences.insert(sentences.end(), wrong.begin(), wrong.end());
+    return check_summary(out.str(), sentences, wrong.empty() ? "as required" : "NOT as required");
   }
 
   namespace

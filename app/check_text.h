@@ -4,9 +4,18 @@
 
 namespace plumbline::app
 {
+  /// A summary of 25 lines of 120 columns at most; where it would be longer, the rest is in the
+  /// report.
+  /// @param body       lines
+  /// @param sentences  after them, at most 15 lines
+  /// @param answer     the last line
+  std::string check_summary(const std::string &body, const std::vector<std::string> &sentences,
+                            const std::string &answer);
+
   /// What is found, for people; the answer last.
+  /// @param page  of the report
   std::string check_text(const Findings &found, const Requirements &required,
-                         const CheckOptions &options);
+                         const CheckOptions &options, const std::string &page);
 
   /// The same for programs, a JSON object.
   std::string check_json(const Findings &found, const Requirements &required,

@@ -9,20 +9,8 @@ namespace plumbline::report
 {
   namespace
   {
-    constexpr std::size_t n_columns = 120;
+    constexpr std::size_t n_columns = summary_columns;
     using Lines = std::vector<std::string>;
-
-    Lines lines_of(const std::string &text)
-    {
-      Lines lines;
-      for (std::size_t start = 0; start < text.size();)
-      {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        lines.push_back(text.substr(start, end - start));
-        start = end + 1;
-      }
-      return lines;
-    }
 
     /// The number of a column; that of columns if none is called so.
     std::size_t column(const Table &table, const std::string &head)
@@ -63,12 +51,7 @@ namespace plumbline::report
       const std::size_t n_rows = table.rows.size(), n_heads = block.size() - n_rows;
       if (n_heads + std::min<std::size_t>(n_rows, 2) > room)
         return;
-      if (block.size() > room)
-      {
-        block.resize(room - 1);
-        block.push_back("... " + std::to_string(n_heads + n_rows + 1 - room) +
-                        " more rows in the report");
-      }
+      block = first_lines(block, room, "rows in the report");
       lines.insert(lines.end(), block.begin(), block.end());
     }
 
@@ -162,7 +145,7 @@ namespace plumbline::report
 
   std::string summary(const std::string &title, const std::vector<Part> &parts, const Lines &end)
   {
-    constexpr std::size_t n_lines = 25, least_share = 9;
+    constexpr std::size_t n_lines = summary_lines, least_share = 9;
     Lines lines = {fitted(title, n_columns)};
     std::vector<Part> shown;
     for (const Part &part : page::with_rows(parts))

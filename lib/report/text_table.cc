@@ -72,6 +72,29 @@ namespace plumbline::report
     return line.substr(0, blank == std::string::npos ? end : blank) + more;
   }
 
+  std::vector<std::string> lines_of(const std::string &text)
+  {
+    std::vector<std::string> lines;
+    for (std::size_t start = 0; start < text.size();)
+    {
+      const std::size_t end = std::min(text.find('\n', start), text.size());
+      lines.push_back(text.substr(start, end - start));
+      start = end + 1;
+    }
+    return lines;
+  }
+
+  std::vector<std::string> first_lines(std::vector<std::string> lines, std::size_t room,
+                                       const std::string &where)
+  {
+    if (const std::size_t n = lines.size(); n > room)
+    {
+      lines.resize(room - 1);
+      lines.push_back("... " + std::to_string(n + 1 - room) + " more " + where);
+    }
+    return lines;
+  }
+
   std::string to_text(const Table &table, std::size_t terminal)
   {
     std::vector<std::size_t> width;

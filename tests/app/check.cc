@@ -2,8 +2,10 @@
 
 #include "check_command.h"
 
+#include "app/check_text.h"
 #include "meshfree/rules/families.h"
 #include "meshfree/rules/rules.h"
+#include "report/text_table.h"
 #include "scene/problem.h"
 
 namespace
@@ -42,6 +44,19 @@ TEST(Check, finds_the_good_example_good)
   expect_found(outcome.out, "averages L2 | reference");
   expect_found(outcome.out, "the weights are those of IPA-AC-R2");
   expect_found(outcome.out, "\nas required\n");
+}
+
+TEST(Check, ends_a_short_summary_with_the_answer)
+{
+  const Outcome outcome = check(nodes_file, (folder / "bonds_wrong.csv").string());
+  const auto lines = plumbline::report::lines_of(outcome.out);
+  EXPECT_EQ(lines.size(), 25u) << outcome.out; // all of them have more
+  for (const std::string &line : lines)
+    EXPECT_LE(line.size(), 120u) << line;
+  EXPECT_EQ(lines.back(), "NOT as required");
+  expect_found(outcome.out, " more lines in the report\n");
+  const std::vector<std::string> many(20, "outlier: " + std::string(200, 'x'));
+  EXPECT_EQ(plumbline::report::lines_of(check_summary(outcome.out, many, "no")).size(), 25u);
 }
 
 TEST(Check, names_the_node_with_the_wrong_weight)

@@ -316,7 +316,7 @@ TEST(Check, writes_a_page_unless_told_not_to)
   const Outcome outcome = check(nodes_file, (plumbline::app::folder / "bonds_wrong.csv").string(),
                                 "-o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 1);
-  expect_found(outcome.out, "written: " + (folder / "report.html").string());
+  expect_found(outcome.out, "report    " + (folder / "report.html").string());
   const std::string page = read(folder / "report.html");
   expect_found(page, "The weights are not as required");
   expect_found(page, "the bond from node 77 to node 79");
