@@ -248,7 +248,8 @@ namespace plumbline::app
     const int exit_code = wrong.empty() ? 0 : 1;
     if (base::Communicator::all().rank() != 0)
       return exit_code;
-    nlohmann::ordered_json json = {{"levels", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json json = {{"schema", check_schema},
+                                   {"levels", nlohmann::ordered_json::array()}};
     for (std::size_t k = 0; k < levels.size(); ++k)
       json["levels"].push_back(nlohmann::ordered_json::parse(check_json(
           levels[k], required, files[k], complaints(levels[k], required).empty() ? 0 : 1)));

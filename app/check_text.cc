@@ -241,7 +241,8 @@ namespace plumbline::app
   std::string check_json(const Findings &found, const Requirements &required,
                          const CheckOptions &options, int exit_code)
   {
-    Json json = {{"nodes", options.nodes_file},
+    Json json = {{"schema", check_schema},
+                 {"nodes", options.nodes_file},
                  {"bonds", options.bonds_file},
                  {"scene", options.scene_file}};
     add_sizes(json, found);

@@ -17,7 +17,10 @@ namespace plumbline::app
   std::string check_text(const Findings &found, const Requirements &required,
                          const CheckOptions &options, const std::string &page);
 
-  /// The same for programs, a JSON object.
+  /// The number under "schema" of check.json in two dimensions; as io::schema.
+  constexpr unsigned int check_schema = 1;
+
+  /// The same for programs, as lib/report/check.schema.json describes it.
   std::string check_json(const Findings &found, const Requirements &required,
                          const CheckOptions &options, int exit_code);
 } // namespace plumbline::app

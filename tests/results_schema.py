@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Results of every analysis that returns records are as lib/io/results.schema.json says.
+"""Results of every analysis that returns records are as lib/io/results.schema.json says, and those of check and sample
+as the schemas in lib/report say.
 
 usage: results_schema.py PLUMBLINE SOURCE
 """
@@ -46,6 +47,21 @@ for analysis, scene, *options in runs:
         del broken[key]
         if validator.is_valid(broken):
             sys.exit(f"{analysis} {scene}: valid without '{key}'")
+
+# of commands whose files have a format of their own, or are printed alone
+check = source / "scenes" / "check"
+with tempfile.TemporaryDirectory() as folder:
+    for words, name in (
+            (["sample", str(source / "scenes/random/smooth.prm"), "--levels", "1", "--set", "Sampling/counts=1,3",
+              "--quiet", "-o", folder], "sample"),
+            (["check", str(check / "nodes.csv"), str(check / "bonds.csv"), "--scene", str(check / "check.prm"),
+              "--quiet", "-o", folder], "check"),
+            (["moduli", "--rules", "FA", "--json"], "results")):
+        ran = subprocess.run([command, *words], check=True, capture_output=True, text=True)
+        written = json.loads(ran.stdout or pathlib.Path(folder, name + ".json").read_text())
+        own = next(source.glob(f"lib/*/{name}.schema.json"))
+        jsonschema.validate(written, json.loads(own.read_text()), jsonschema.Draft202012Validator)
+
 for part, n in seen.items():
     if n == 0:
         sys.exit(f"no results have {part}: nothing was tested of them")

@@ -64,7 +64,8 @@ namespace plumbline::report
   std::string sampling_json(const SamplingResults &r)
   {
     const bool has_field = r.random.field != scene::FieldKind::none;
-    Json json{{"scene", r.scene_name},
+    Json json{{"schema", sampling_schema},
+              {"scene", r.scene_name},
               {"rule", base::word(r.sampling.rule)},
               {"growth", base::word(r.sampling.growth)},
               {"seed", r.sampling.seed},

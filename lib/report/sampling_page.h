@@ -8,6 +8,9 @@
 
 namespace plumbline::report
 {
+  /// The number under "schema" of sample.json; as io::schema.
+  constexpr unsigned int sampling_schema = 1;
+
   /// A row for each method, level and set: errors of mean and deviation, or the field's mean and
   /// deviation where no exact one is known.
   Table sampling_field_table(const study::SamplingResults &results);
