@@ -150,6 +150,24 @@ namespace plumbline::scene
       return choice == nullptr ? "" : base::did_you_mean(text, choice->words());
     }
 
+    /// Of one box or line whose corners have no ':' between them.
+    std::string corner_hint(const std::string &text, const Patterns::PatternBase &allowed)
+    {
+      const auto *all = dynamic_cast<const Patterns::List *>(&allowed);
+      const auto *corners =
+          all == nullptr ? nullptr : dynamic_cast<const Patterns::List *>(&all->get_base_pattern());
+      const std::vector<std::string> given = dealii::Utilities::split_string_list(text, ",");
+      const Patterns::Double number;
+      if (corners == nullptr || corners->get_separator().front() != ':' ||
+          (given.size() != 4 && given.size() != 6) ||
+          !std::all_of(given.begin(), given.end(),
+                       [&](const std::string &one) { return number.match(one); }))
+        return "";
+      const auto middle = given.begin() + static_cast<std::ptrdiff_t>(given.size() / 2);
+      return "; did you mean '" + join({given.begin(), middle}, ", ") + " : " +
+             join({middle, given.end()}, ", ") + "'?";
+    }
+
     /// The part of a list that is not allowed; else the whole text.
     std::string culprit(const std::string &text, const Patterns::PatternBase &allowed)
     {
@@ -458,12 +476,15 @@ namespace plumbline::scene
         !hint.empty() && !key.section.empty())
       throw InputError(given + "is not allowed" + hint);
     const std::string bad = culprit(value, *key.allowed);
+    const std::string corners = corner_hint(value, *key.allowed);
     if (!key.allowed->match(value))
       throw InputError(given + "is not allowed" +
                        (bad == value ? "" : ", for '" + base::shown(bad) + "' in it") + "; write " +
                        key.allowed->description() + ", or remove the key: its default is '" +
                        key.by_default + "'" +
-                       comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any) +
+                       (corners.empty()
+                            ? comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any)
+                            : corners) +
                        word_hint(value, *key.allowed));
     key.value = value;
     key.is_given = true;

@@ -67,7 +67,10 @@ TEST_F(BadKeys, in_lists_are_named_with_how_a_list_is_written)
        {set("Domain/interaction domain", "wide"),
         {"Domain/interaction domain: 'wide' is not a number; write one such as"}},
        {set("Domain/boxes", "0, 0 : a, 1"),
-        {no + ", for 'a' in it; write boxes 'x0, y0 : x1, y1'"}}});
+        {no + ", for 'a' in it; write boxes 'x0, y0 : x1, y1'"}},
+       {set("Domain/boxes", "0,0,1,1"), {no, "; did you mean '0, 0 : 1, 1'?"}},
+       {set("Domain/boxes", "0, 0, 0, 1, 2, 3"), {no, "; did you mean '0, 0, 0 : 1, 2, 3'?"}},
+       {set("Fracture/no-fail zones", "0, 0, 0.5, 1"), {no, "; did you mean '0, 0 : 0.5, 1'?"}}});
 }
 
 TEST_F(BadKeys, with_decimal_commas_are_refused_with_the_number_that_was_meant)
