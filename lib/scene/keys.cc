@@ -562,25 +562,34 @@ namespace plumbline::scene
   {
     const std::vector<std::string> words = words_of(text);
     std::vector<std::pair<int, const Key *>> found;
+    int most_words = 0; // of the words, that a key has
     for (const Key &key : keys_)
     {
-      int total = 0;
-      bool has_all = !words.empty();
+      int total = 0, n_words = 0;
       for (const std::string &word : words)
       {
         constexpr int of_name = 16, of_section = 4;
         const int one = of_name * rank(word, key.name) + of_section * rank(word, key.section) +
                         rank(word, key.help);
-        has_all = has_all && one > 0;
+        n_words += one > 0 ? 1 : 0;
         total += one;
       }
-      if (has_all)
+      if (n_words > most_words)
+        found.clear();
+      most_words = std::max(most_words, n_words);
+      if (n_words == most_words && n_words > 0)
         found.emplace_back(total, &key);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto &a, const auto &b) { return a.first > b.first; });
     constexpr std::size_t most_described = 5, most_named = 15;
-    std::string described, named;
+    const bool has_all = static_cast<std::size_t>(most_words) == words.size();
+    std::string described = found.empty() || has_all
+                                ? ""
+                                : "no key has all of these words; these have " +
+                                      std::to_string(most_words) + " of " +
+                                      std::to_string(words.size()) + "\n",
+                named;
     for (std::size_t i = 0; i < std::min(found.size(), most_named); ++i)
       if (i < most_described)
         described += found[i].second->description();
