@@ -1,11 +1,13 @@
 #include "check_findings.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "geometry/local_coordinates.h"
 #include "meshfree/check/bond_values.h"
 #include "meshfree/discretisations.h"
 #include "reference/method.h"
 #include "scene/mesh.h"
+#include "scene/scene_keys.h"
 #include "study/comparison.h"
 #include "study/motion_norms.h"
 #include "study/refusal.h"
@@ -155,10 +157,13 @@ namespace plumbline::app
       return result;
     }
 
-    /// How the files were read.
-    std::vector<std::string> all_notes(const Findings &found, const CheckOptions &options)
+    /// How the files were read, and with which horizon.
+    std::vector<std::string> all_notes(const Findings &found, const std::string &assumed,
+                                       const CheckOptions &options)
     {
       std::vector<std::string> result;
+      if (!assumed.empty())
+        result.push_back(assumed);
       for (const auto &[file, notes] : {std::pair{options.nodes_file, found.nodes.notes},
                                         std::pair{options.bonds_file, found.given.notes}})
         for (const std::string &note : notes)
@@ -166,6 +171,22 @@ namespace plumbline::app
       return result;
     }
   } // namespace
+
+  std::string assumed_horizon(const scene::Scene &scene, const CheckOptions &options,
+                              const problem::Level &level)
+  {
+    const scene::Regime regime = scene.study.regime;
+    const bool is_fixed = regime == scene::Regime::m || regime == scene::Regime::horizon;
+    const std::string key = is_fixed ? "Study/horizon" : "Study/m";
+    std::error_code error; // a pipe cannot be read again
+    if (!std::filesystem::is_regular_file(options.scene_file, error) ||
+        !scene::value_of_key(options.scene_file, options.overrides, key).empty())
+      return "";
+    return key + " is not given: " +
+           (is_fixed ? "the horizon " + base::to_text(level.horizon, 6)
+                     : "m = horizon / h = " + base::to_text(level.horizon / level.h, 6)) +
+           " is assumed";
+  }
 
   Findings find(scene::Scene scene, const CheckOptions &options)
   {
@@ -205,7 +226,7 @@ namespace plumbline::app
     static_cast<meshfree::Findings &>(found) =
         find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
                      scene.methods.names);
-    found.notes = all_notes(found, options);
+    found.notes = all_notes(found, assumed_horizon(scene, options, found.level.level), options);
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();

@@ -41,6 +41,11 @@ namespace plumbline::app
     std::string id(std::size_t node) const { return std::to_string(ids[node]); }
   };
 
+  /// Says that the horizon is the default one, where neither the scene file nor the command gives
+  /// it; else empty.
+  std::string assumed_horizon(const scene::Scene &scene, const CheckOptions &options,
+                              const problem::Level &level);
+
   /// @note Collective: the solutions are shared among the ranks.
   Findings find(scene::Scene scene, const CheckOptions &options);
 } // namespace plumbline::app

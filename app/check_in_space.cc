@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "check_findings.h"
 #include "check_text.h"
 #include "io/results_json.h"
 #include "meshfree/check/bond_values.h"
@@ -163,7 +164,10 @@ namespace plumbline::app
     else if (!options.quiet)
     {
       std::string body;
-      for (const std::string &line : words_of(found, given))
+      std::vector<std::string> lines = words_of(found, given);
+      if (const std::string assumed = assumed_horizon(scene, options, level); !assumed.empty())
+        lines.push_back(assumed);
+      for (const std::string &line : lines)
         body += report::wrapped(line, report::summary_columns, 2) + '\n';
       body += "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";
       std::cout << check_summary(body, wrong, wrong.empty() ? "as required" : "NOT as required");

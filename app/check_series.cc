@@ -201,7 +201,7 @@ namespace plumbline::app
 
     std::string text_of(const study::StudyResults &results, const Table &table,
                         const std::vector<study::Trend> &trends,
-                        const std::vector<std::string> &wrong, const std::string &page)
+                        const std::vector<std::string> &wrong, const std::string &more)
     {
       constexpr std::size_t most_complaints = 6;
       std::vector<std::string> sentences;
@@ -215,8 +215,7 @@ namespace plumbline::app
                             trend.reason);
       return check_summary(
           report::heading(results.scene_name, results.purpose) + "\n\n" +
-              report::to_text(report::without_empty_columns(table), report::summary_columns) +
-              "report: " + page + "\n",
+              report::to_text(report::without_empty_columns(table), report::summary_columns) + more,
           sentences, wrong.empty() ? "as required" : "NOT as required");
     }
   } // namespace
@@ -259,11 +258,13 @@ namespace plumbline::app
     const std::string all = json.dump(2) + "\n";
     const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
                                                    : fs::path(options.output);
+    const std::string assumed = assumed_horizon(scene, options, chosen.front());
     if (options.json)
       std::cout << all;
     else if (!options.quiet)
       std::cout << text_of(results, table_of(levels, trends), trends, wrong,
-                           (folder / "report.html").string());
+                           (assumed.empty() ? "" : assumed + "\n") +
+                               "report: " + (folder / "report.html").string() + "\n");
     const bool is_silent = options.quiet || options.json;
     if (is_silent && options.output.empty())
       return exit_code;

@@ -59,6 +59,20 @@ TEST(Check, ends_a_short_summary_with_the_answer)
   EXPECT_EQ(plumbline::report::lines_of(check_summary(outcome.out, many, "no")).size(), 25u);
 }
 
+TEST(Check, says_that_it_assumes_a_horizon)
+{
+  const std::string assumed = "Study/m is not given: m = horizon / h = 3 is assumed";
+  EXPECT_EQ(check(nodes_file, bonds_file).out.find("is assumed"), std::string::npos);
+  const std::string text = read(scene_file),
+                    scene = write("no_m.prm", replace(text, "  set m      = 3\n", ""));
+  const std::string arguments = "check " + nodes_file + " " + bonds_file + " --scene " + scene +
+                                " -o " + temporary("check").string();
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, assumed);
+  EXPECT_EQ(run(arguments + " --set Study/m=3").out.find("is assumed"), std::string::npos);
+}
+
 TEST(Check, names_the_node_with_the_wrong_weight)
 {
   const std::string bonds = (folder / "bonds_wrong.csv").string();
