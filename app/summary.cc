@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <tuple>
 
 namespace plumbline::app
 {
@@ -130,6 +131,40 @@ namespace plumbline::app
       }
     }
 
+    /// Of solutions by the reference, or else by Galerkin methods, at the finest levels of the
+    /// first problems and series.
+    void print_estimates(const StudyResults &results)
+    {
+      constexpr std::size_t most = 2;
+      constexpr int n_digits = 3;
+      const auto &all = results.references.empty() ? results.estimates : results.references;
+      std::vector<const study::ErrorEstimate *> finest;
+      for (const study::ErrorEstimate &one : all)
+      {
+        const auto same =
+            std::find_if(finest.begin(), finest.end(),
+                         [&](const study::ErrorEstimate *other)
+                         {
+                           return std::tie(other->problem, other->series, other->method) ==
+                                  std::tie(one.problem, one.series, one.method);
+                         });
+        if (same == finest.end())
+          finest.push_back(&one);
+        else if (one.level > (*same)->level)
+          *same = &one;
+      }
+      std::size_t n = 0;
+      for (const study::ErrorEstimate *one : finest)
+        if (one->estimate > 0 && n++ < most)
+          print("Estimated error of " + one->method + ", " + one->problem + ", " + one->series +
+                ", h = " + base::to_text(one->h, n_digits) + ": " +
+                base::to_text(one->estimate, n_digits) + " (averages, L2)" +
+                (one->field_estimate > 0
+                     ? ", " + base::to_text(one->field_estimate, n_digits) + " (field, L2)"
+                     : "") +
+                "; " + std::to_string(one->certified_digits) + " certain digits");
+    }
+
     /// Of the first problems and series.
     void print_cheapest(const StudyResults &results)
     {
@@ -171,5 +206,8 @@ namespace plumbline::app
     std::cout << "report: " << (folder / "report.html").string() << "\n\n";
     print_answer(results);
     print_cheapest(results);
+    if (std::all_of(results.advice.begin(), results.advice.end(),
+                    [](const study::Advice &advice) { return advice.choices.empty(); }))
+      print_estimates(results);
   }
 } // namespace plumbline::app

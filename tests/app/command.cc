@@ -382,6 +382,31 @@ TEST(Command, a_summary_is_short_and_ends_in_the_answer)
   EXPECT_EQ(all.back().rfind("Cheapest to a relative error of 0.01: ", 0), 0u) << all.back();
 }
 
+TEST(Command, a_summary_without_advice_ends_in_the_estimated_error)
+{
+  plumbline::study::StudyResults results;
+  results.decisive_error = "averages L2 | reference";
+  plumbline::study::ErrorEstimate coarse, fine;
+  coarse.problem = fine.problem = "u";
+  coarse.series = fine.series = "m = 3";
+  coarse.method = fine.method = "Q2";
+  coarse.estimate = 1e-3;
+  fine.level = 1;
+  fine.h = .05;
+  fine.estimate = 2e-5;
+  fine.field_estimate = 3e-4;
+  fine.certified_digits = 4;
+  results.references = {coarse, fine};
+  std::ostringstream said;
+  auto *const terminal = std::cout.rdbuf(said.rdbuf());
+  print_summary(results, "out");
+  std::cout.rdbuf(terminal);
+  expect_found(said.str(),
+               "Estimated error of Q2, u, m = 3, h = 0.05: 2e-05 (averages, L2), 0.0003 "
+               "(field, L2); 4 certain digits\n");
+  EXPECT_EQ(said.str().find("0.001 (averages"), std::string::npos);
+}
+
 TEST(Command, a_summary_puts_methods_into_the_worst_of_their_classes)
 {
   plumbline::study::StudyResults results;
