@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
-from plumbline_run import run
+from plumbline_run import CommandFailed, run
 from plumbline_scene import boxes, number, numbers, read_scene
 
 # results that are shown: command, scene, options that make it short, the picture of its folder, caption
@@ -180,9 +180,10 @@ def result_picture(entry, root, program, work, pictures):
     folder = work / "gallery" / scene.replace("/", "_")
     words = ["plumbline", command, f"scenes/{scene}.prm", *shlex.split(options)]
     run(words + ["--quiet", "-o", str(folder)], work, program)
-    found = sorted(folder.glob("**/" + pattern)) or sorted(folder.glob("**/*.svg"))
+    found = sorted(folder.glob("**/" + pattern))
     if not found:
-        return ""  # a report without separate pictures: the drawing of the problem remains
+        written = ", ".join(path.name for path in sorted(folder.glob("**/*.svg"))) or "none"
+        raise CommandFailed(f"{shlex.join(words)} writes no picture {pattern}; its pictures: {written}")
     name = "result_" + scene.replace("/", "_") + ".svg"
     shutil.copy(found[0], pictures / name)
     shown = breakable(shlex.join(words))
@@ -216,14 +217,16 @@ TITLES = {
     "meshes": "Meshes, scattered nodes and references", "state_based": "Variational state-based bars",
     "dynamics": "Transient analysis", "waves": "Dispersion", "griffith": "Dynamic fracture",
     "fracture": "Quasi-static fracture and stationary cracks", "random": "Random fields and uncertainty quantification",
-    "glass_ceramics": "Toughness of microstructures", "check": "Weights of another code",
+    "glass_ceramics": "Toughness of microstructures", "three_d": "Three dimensions", "check": "Weights of another code",
     "failures": "Cases where a method must fail, or a scene must be refused"}
 
 
 def page(root, program, work, pictures):
     pictures.mkdir(parents=True)
     folders = sorted({path.parent.name for path in (root / "scenes").glob("*/*.prm")})
-    order = [name for name in TITLES if name in folders] + [name for name in folders if name not in TITLES]
+    if set(folders) != set(TITLES):
+        raise ValueError(f"TITLES and the folders of scenes differ in {sorted(set(folders) ^ set(TITLES))}")
+    order = list(TITLES)
     with ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda entry: result_picture(entry, root, program, work, pictures), RESULTS))
         cards = {name: list(pool.map(lambda path: card(path, root, pictures),
@@ -237,6 +240,6 @@ def page(root, program, work, pictures):
              "Each drawing shows the domain Ω (blue), the interaction domain (beige), grips (grey), cracks and notches "
              "(red), the nodes or the mesh of the coarsest level, and the ball of one horizon (orange)."]
     for name in order:
-        parts += ["", f"### {TITLES.get(name, name)}", "", "```{raw} html", '<div class="gallery">', *cards[name],
+        parts += ["", f"### {TITLES[name]}", "", "```{raw} html", '<div class="gallery">', *cards[name],
                   "</div>", "```"]
     return re.sub(r"\n{3,}", "\n\n", "\n".join(parts)) + "\n"
