@@ -19,6 +19,8 @@ from plumbline_scene import read_scene  # noqa: E402
 
 # blocks that are shown without being run: how to install and build, and what takes hours
 SHELL = re.compile(r"^(\./bootstrap (\w+)|cmake --build |alias plumbline=)")
+# a command, as blocks of four blanks have them
+INDENTED = re.compile(r"(\$ |\./|plumbline |python3? |cmake |ctest |sh |lmp )")
 
 
 class Page(html.parser.HTMLParser):
@@ -77,12 +79,28 @@ def broken_addresses(folder):
                 yield f"{name} links to {address}, which has no such part"
 
 
+def unlike_its_test(block, file):
+    """Options and scripts of a command that the file which runs it does not have."""
+    test = (ROOT / file).read_text(encoding="utf-8")
+    for part in re.findall(r"--[a-z-]+(?: [a-z]+$)?|\w+\.sh \{nodes\} \{forces\}", block):
+        if part not in test:
+            yield part
+
+
 def unchecked_blocks(path):
-    """Each block is a directive that runs it, or a command that sets up or takes hours."""
+    """Each block is a directive that runs it, a command that sets up or takes hours, or, after '% run by FILE', one
+    that a test runs. None is indented in place of a fence."""
     commands = (ROOT / "bootstrap").read_text(encoding="utf-8")
     text = path.read_text(encoding="utf-8")
-    for language, block in re.findall(r"^```([^\n`]*)\n(.*?)^```$", text, re.M | re.S):
+    without_fences = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    for line in re.findall(r"\n\n(?: {4,}|\t)(.*)", without_fences):
+        if INDENTED.match(line):
+            yield f"{path.name}: '{line}' is indented; use a directive, or a fence"
+    for file, language, block in re.findall(r"^(?:% run by ([^\n]*)\n\n)?```([^\n`]*)\n(.*?)^```$", text, re.M | re.S):
         if language.startswith("{"):
+            continue
+        if file:
+            yield from (f"{path.name}: {file} does not run '{part}'" for part in unlike_its_test(block, file))
             continue
         for line in block.strip().split("\n"):
             match = SHELL.match(line)
