@@ -37,6 +37,19 @@ def test_the_example_in_space_runs(root, capsys):
     assert errors["IPA-AC-R2"] < errors["FA"] / 10 and errors["Q1"] < errors["FA"] / 10
 
 
+def test_the_example_of_the_main_readme_runs(root, capsys, tmp_path, monkeypatch):
+    text = (root / "README.md").read_text()
+    scene = re.search(r"`convergence\.prm`.*?```scene\n(.*?)```", text, re.DOTALL).group(1)
+    (tmp_path / "convergence.prm").write_text(scene)
+    monkeypatch.chdir(tmp_path)
+    example = re.search(r"```python\n(import numpy as np, plumbline\n.*?)```", text, re.DOTALL).group(1)
+    exec(compile(example, "README.md", "exec"), {})
+    lines = capsys.readouterr().out.split("\n")
+    assert lines[:4] == ["FA not AC", "IPA-AC not AC", "IPA-AC-R2 AC", "Q1 AC"]
+    assert any("the weights are those of FA" in line for line in lines[4:])
+    assert lines[-2] == "NOT as required"
+
+
 def test_all_names_have_docstrings():
     for name in plumbline.__all__:
         assert (inspect.getdoc(getattr(plumbline, name)) or "").strip(), name
