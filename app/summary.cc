@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "report/text_table.h"
 #include "study/cheapest.h"
+#include "study/model_facts.h"
 #include "study/target_words.h"
 #include "study/trend.h"
 
@@ -193,9 +194,14 @@ namespace plumbline::app
   void print_summary(const StudyResults &results, const std::filesystem::path &folder)
   {
     print(report::heading(results.scene_name, results.purpose));
+    bool has_constants = false;
     for (const auto &[what, value] : results.facts)
-      print(what + ": " + value);
-    if (results.facts.empty())
+      if (!study::is_of_equation(what)) // that is on the page
+      {
+        print(what + ": " + value);
+        has_constants = true;
+      }
+    if (!has_constants)
       std::cout << '\n';
     print(results.decisive_error + " (compared with " + study::target_words(results) + ")");
     print_trends(results);

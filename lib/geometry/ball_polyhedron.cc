@@ -285,6 +285,16 @@ namespace plumbline::geometry
         result.second = raw.second - raw.zeroth * symmetric(mean, mean);
       return result;
     }
+    /// The cell, so far from the sphere that no rounding matters.
+    bool is_well_inside(const SolidBall &ball, const ConvexPolyhedron &cell)
+    {
+      constexpr double safe = 1 - 1e-9;
+      const double square = safe * ball.radius * ball.radius;
+      const auto &vertices = cell.vertices();
+      return std::all_of(vertices.begin(), vertices.end(),
+                         [&](const Point<3> &x)
+                         { return x.distance_square(ball.centre) < square; });
+    }
   } // namespace
 
   SolidMoments intersect(const SolidBall &ball, const ConvexPolyhedron &cell, unsigned int degree)
@@ -292,6 +302,8 @@ namespace plumbline::geometry
     const auto &[centre, radius] = ball;
     if (!(radius > 0) || !std::isfinite(radius))
       throw InputError("the radius of a ball is " + std::to_string(radius) + "; give one above 0");
+    if (is_well_inside(ball, cell)) // most cells of a large ball
+      return cell.moments();
     CutBoundary boundary;
     switch (cut(centre, radius, cell, boundary))
     {

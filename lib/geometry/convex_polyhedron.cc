@@ -19,6 +19,9 @@ namespace plumbline::geometry
     /// Relative to the diameter: how far a vertex may be off the plane of a face.
     constexpr double flatness = 1e-10;
 
+    /// Relative to the coordinates, which small polyhedra feel.
+    constexpr double rounding = 1e-15;
+
     Extended difference(const Point<3> &a, const Point<3> &b)
     {
       Extended d;
@@ -43,9 +46,19 @@ namespace plumbline::geometry
           largest = std::max(largest, points[i].distance(points[j]));
       return largest;
     }
+
+    double largest_coordinate(const std::vector<Point<3>> &points)
+    {
+      double largest = 0;
+      for (const Point<3> &x : points)
+        for (unsigned int d = 0; d < 3; ++d)
+          largest = std::max(largest, std::abs(x[d]));
+      return largest;
+    }
   } // namespace
 
-  ConvexPolyhedron::ConvexPolyhedron(std::vector<Point<3>> vertices, std::vector<Indices> faces)
+  ConvexPolyhedron::ConvexPolyhedron(std::vector<Point<3>> vertices, std::vector<Indices> faces,
+                                     const std::vector<Tensor<1, 3>> &normals)
       : vertices_(std::move(vertices))
   {
     if (vertices_.size() < 4 || faces.size() < 4)
@@ -65,7 +78,7 @@ namespace plumbline::geometry
       faces_.push_back({std::move(face), {}, {}, 0});
     }
     find_edges();
-    find_planes();
+    find_planes(normals);
     measure();
   }
 
@@ -102,11 +115,13 @@ namespace plumbline::geometry
                          " belongs to " + std::to_string(n_faces[e]) + ", not to 2");
   }
 
-  void ConvexPolyhedron::find_planes()
+  void ConvexPolyhedron::find_planes(const std::vector<Tensor<1, 3>> &normals)
   {
-    const double diameter = diameter_of(vertices_);
-    for (Face &face : faces_)
+    const double diameter = diameter_of(vertices_),
+                 off = flatness * diameter + rounding * largest_coordinate(vertices_);
+    for (std::size_t f = 0; f < faces_.size(); ++f)
     {
+      Face &face = faces_[f];
       const Point<3> &first = vertices_[face.vertices.front()];
       std::vector<Point<3>> corners;
       Extended area;
@@ -118,17 +133,19 @@ namespace plumbline::geometry
               cross_product_3d(difference(corners[k - 1], first), difference(corners[k], first));
       }
       face.diameter = diameter_of(corners);
+      if (!normals.empty())
+        area = difference(Point<3>(normals[f]), Point<3>());
       const long double size = area.norm();
-      if (!(size > flatness * diameter * face.diameter))
+      if (normals.empty() && !(size > flatness * diameter * face.diameter))
         throw InputError("a face of a polyhedron at " + words(first) + " has no area");
       face.normal = area / size;
       for (const unsigned int vertex : face.vertices)
-        if (std::abs(face.normal * difference(vertices_[vertex], first)) > flatness * diameter)
+        if (std::abs(face.normal * difference(vertices_[vertex], first)) > off)
           throw InputError("a face of a polyhedron is not plane: vertex " + std::to_string(vertex) +
                            " at " + words(vertices_[vertex]) +
                            " is off; split the face into triangles");
       for (const Point<3> &x : vertices_)
-        if (face.normal * difference(x, first) > flatness * diameter)
+        if (face.normal * difference(x, first) > off)
           throw InputError("a polyhedron is not convex, or a face is written clockwise: " +
                            words(x) + " lies outside of the face at " + words(first));
     }

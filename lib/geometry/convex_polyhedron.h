@@ -26,10 +26,13 @@ namespace plumbline::geometry
 
     /// @param vertices  shape (n_vertices, 3) [length]
     /// @param faces     the vertices of each, counter-clockwise seen from outside
+    /// @param normals   outward, of each face, of any length; empty: those of its vertices, which
+    /// rounding makes wrong where a face is as narrow as 1e-10 of the diameter
     /// @throws InputError  fewer than 4 vertices or faces, a vertex that is not finite, a face that
     /// is not plane to 1e-10 of the diameter, faces that do not close or that are oriented
     /// inwards, a polyhedron that is not convex or has no volume
-    ConvexPolyhedron(std::vector<dealii::Point<3>> vertices, std::vector<Indices> faces);
+    ConvexPolyhedron(std::vector<dealii::Point<3>> vertices, std::vector<Indices> faces,
+                     const std::vector<dealii::Tensor<1, 3>> &normals = {});
 
     /// The box [lower, upper].
     static ConvexPolyhedron box(const dealii::Point<3> &lower, const dealii::Point<3> &upper);
@@ -59,7 +62,7 @@ namespace plumbline::geometry
 
   private:
     void find_edges();
-    void find_planes();
+    void find_planes(const std::vector<dealii::Tensor<1, 3>> &normals);
     void measure();
 
     std::vector<dealii::Point<3>> vertices_;

@@ -3,13 +3,16 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "geometry/cell_counts.h"
+#include "geometry/polyhedron_clip.h"
 
-#include <voro++/voro++.hh>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <optional>
 #include <random>
 #include <sstream>
 #include <utility>
@@ -19,13 +22,17 @@ namespace plumbline::geometry
   namespace
   {
     using Place = dealii::Point<3>;
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Delaunay = CGAL::Delaunay_triangulation_3<
+        Kernel, CGAL::Triangulation_data_structure_3<
+                    CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel>,
+                    CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
 
     /// A Voronoi cell of which Ω or the layer covers all but this fraction is cut by no boundary.
     constexpr double uncut = 1e-12;
 
-    /// Of a cube: vertices nearer to each other are one, whose face between them is rounding.
-    /// voro++ takes vertices so near a plane as lying on it.
-    constexpr double same_vertex = 1e-10;
+    /// Of a cube: pieces below that are rounding.
+    constexpr double sliver = 1e-14;
 
     [[noreturn]] void reject(std::size_t node, const Place &at, const std::string &why)
     {
@@ -128,78 +135,33 @@ namespace plumbline::geometry
       std::array<int, 3> n_{};
     };
 
-    /// A polyhedron in cubes about a node, as ConvexPolyhedron takes it; empty where it is none but
-    /// for rounding.
-    std::optional<ConvexPolyhedron> polyhedron(voro::voronoicell &cell, const Place &node,
-                                               const Frame &frame)
-    {
-      std::vector<double> coordinates;
-      std::vector<int> sides;
-      cell.vertices(coordinates);
-      cell.face_vertices(sides); // of each face: how many, and which
-      std::vector<Place> vertices;
-      std::vector<unsigned int> merged;
-      for (std::size_t v = 0; v < coordinates.size(); v += 3)
-      {
-        const Place x =
-            node + dealii::Tensor<1, 3>({coordinates[v], coordinates[v + 1], coordinates[v + 2]});
-        const auto near =
-            std::find_if(vertices.begin(), vertices.end(),
-                         [&](const Place &other) { return x.distance(other) < same_vertex; });
-        merged.push_back(static_cast<unsigned int>(near - vertices.begin()));
-        if (near == vertices.end())
-          vertices.push_back(x);
-      }
-      for (Place &x : vertices)
-        x = frame.place(x);
-
-      std::vector<ConvexPolyhedron::Indices> faces;
-      for (std::size_t at = 0; at < sides.size(); at += 1 + static_cast<std::size_t>(sides[at]))
-      {
-        ConvexPolyhedron::Indices face;
-        for (int k = 1; k <= sides[at]; ++k)
-          if (const unsigned int vertex =
-                  merged[static_cast<std::size_t>(sides[at + static_cast<std::size_t>(k)])];
-              face.empty() || face.back() != vertex)
-            face.push_back(vertex);
-        while (face.size() > 1 && face.back() == face.front())
-          face.pop_back();
-        if (face.size() > 2)
-          faces.push_back(std::move(face));
-      }
-      if (faces.size() < 4)
-        return {};
-      return ConvexPolyhedron(std::move(vertices), std::move(faces));
-    }
-
-    /// The part of a cell in a range of cubes; false: there is none.
-    bool clip(voro::voronoicell &cell, const Place &node, const CubeRange &range)
+    /// The part of a cell about a node in a range of cubes; false: there is none.
+    bool clip(ClippedPolyhedron &cell, const Place &node, const CubeRange &range)
     {
       for (unsigned int d = 0; d < 3; ++d)
       {
-        std::array<double, 3> normal{};
-        normal[d] = 1; // a plane is given by twice its distance
-        if (!cell.plane(normal[0], normal[1], normal[2], 2 * (range.upper[d] - node[d])) ||
-            !cell.plane(-normal[0], -normal[1], -normal[2], 2 * (node[d] - range.lower[d])))
+        dealii::Tensor<1, 3> axis;
+        axis[d] = 1;
+        if (!cell.clip(axis, range.upper[d] - node[d]) ||
+            !cell.clip(-axis, node[d] - range.lower[d]))
           return false;
       }
       return true;
     }
 
+    /// Of a cell about a node, in cubes.
     struct Extent
     {
       Place lower, upper;
 
-      Extent(voro::voronoicell &cell, const Place &node) : lower(node), upper(node)
+      Extent(const ClippedPolyhedron &cell, const Place &node) : lower(node), upper(node)
       {
-        std::vector<double> coordinates;
-        cell.vertices(coordinates);
-        for (std::size_t v = 0; v < coordinates.size(); ++v)
-        {
-          const unsigned int d = v % 3;
-          lower[d] = std::min(lower[d], node[d] + coordinates[v]);
-          upper[d] = std::max(upper[d], node[d] + coordinates[v]);
-        }
+        for (const Place &x : cell.vertices())
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            lower[d] = std::min(lower[d], node[d] + x[d]);
+            upper[d] = std::max(upper[d], node[d] + x[d]);
+          }
       }
 
       bool is_in(const CubeRange &range) const
@@ -219,37 +181,64 @@ namespace plumbline::geometry
       }
     };
 
-    /// What of a Voronoi cell is in one of the boxes.
-    std::vector<ConvexPolyhedron> pieces_of(voro::voronoicell &whole, const Place &node,
+    /// What of a Voronoi cell about a node is in one of the boxes.
+    std::vector<ConvexPolyhedron> pieces_of(const ClippedPolyhedron &whole, const Place &node,
                                             const std::vector<CubeRange> &boxes, const Frame &frame)
     {
-      std::vector<ConvexPolyhedron> pieces;
-      const auto add = [&](voro::voronoicell &cell)
+      const auto placed = [&](const ClippedPolyhedron &cell)
       {
-        if (auto piece = polyhedron(cell, node, frame))
-          pieces.push_back(std::move(*piece));
+        return cell.placed([&](const Place &x)
+                           { return frame.place(node + dealii::Tensor<1, 3>(x)); });
       };
       const Extent extent(whole, node);
-      for (const CubeRange &box : boxes)
-        if (extent.is_in(box))
-        {
-          add(whole);
-          return pieces;
-        }
+      if (std::any_of(boxes.begin(), boxes.end(),
+                      [&](const CubeRange &box) { return extent.is_in(box); }))
+        return {placed(whole)};
+      std::vector<ConvexPolyhedron> pieces;
       double covered = 0;
       for (const CubeRange &box : boxes)
-        if (extent.meets(box))
-          if (voro::voronoicell part(whole); clip(part, node, box))
+        if (ClippedPolyhedron part = whole; extent.meets(box) && clip(part, node, box))
+          if (const double volume = part.volume(); volume > sliver)
           {
-            covered += part.volume();
-            add(part);
+            covered += volume;
+            pieces.push_back(placed(part));
           }
       if (pieces.size() > 1 && std::abs(covered - whole.volume()) <= uncut * whole.volume())
-      {
-        pieces.clear();
-        add(whole);
-      }
+        return {placed(whole)};
       return pieces;
+    }
+
+    /// The part of a frame that is nearer to a node than to its neighbours in the Delaunay
+    /// triangulation, about the node.
+    ClippedPolyhedron voronoi_cell(const Delaunay &delaunay, const Delaunay::Vertex_handle &node,
+                                   const Frame &frame)
+    {
+      constexpr double margin = 1; // what is there is cut off by boxes
+      const auto place = [](const Delaunay::Vertex_handle &vertex)
+      { return Place(vertex->point().x(), vertex->point().y(), vertex->point().z()); };
+      const Place x = place(node);
+      Place lower, upper;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        lower[d] = -margin - x[d];
+        upper[d] = frame.n()[d] + margin - x[d];
+      }
+      ClippedPolyhedron cell(lower, upper);
+      std::vector<Delaunay::Vertex_handle> neighbours;
+      if (delaunay.dimension() == 3)
+        delaunay.finite_adjacent_vertices(node, std::back_inserter(neighbours));
+      else // all of them, as they lie in a plane
+        for (const Delaunay::Vertex_handle other : delaunay.finite_vertex_handles())
+          if (other != node)
+            neighbours.push_back(other);
+      std::vector<dealii::Tensor<1, 3>> ways;
+      for (const auto &neighbour : neighbours)
+        ways.push_back(place(neighbour) - x);
+      std::sort(ways.begin(), ways.end(),
+                [](const auto &a, const auto &b) { return a.norm_square() < b.norm_square(); });
+      for (const dealii::Tensor<1, 3> &way : ways)
+        (void)cell.clip(way, way.norm_square() / 2);
+      return cell;
     }
 
     void append(NodeCells<3> &result, std::vector<ConvexPolyhedron> pieces)
@@ -269,44 +258,29 @@ namespace plumbline::geometry
     /// Adds the cells of nodes[first ... last - 1], all of Ω or all of the layer.
     void add_cells(NodeCells<3> &result, std::size_t first, std::size_t last, const Frame &frame)
     {
-      constexpr double margin = 1; // voro++ leaves out nodes on its upper boundary
-      constexpr double per_block = 5;
-      constexpr int room = 8;
       const std::vector<CubeRange> boxes = frame.boxes(first < result.n_free);
-      std::array<int, 3> n_blocks{};
-      double volume = 1;
-      for (const int n : frame.n())
-        volume *= n + 2 * margin;
-      const double side = std::cbrt(per_block * volume /
-                                    static_cast<double>(std::max<std::size_t>(1, last - first)));
-      for (unsigned int d = 0; d < 3; ++d)
-        n_blocks[d] = 1 + static_cast<int>((frame.n()[d] + 2 * margin) / side);
-      voro::container nodes(-margin, frame.n()[0] + margin, -margin, frame.n()[1] + margin, -margin,
-                            frame.n()[2] + margin, n_blocks[0], n_blocks[1], n_blocks[2], false,
-                            false, false, room);
-      voro::particle_order order;
+      std::vector<std::pair<Delaunay::Point, std::size_t>> points;
       for (std::size_t i = first; i < last; ++i)
       {
         const Place x = frame.in_cubes(result.nodes[i]);
-        nodes.put(order, static_cast<int>(i), x[0], x[1], x[2]);
+        points.push_back({{x[0], x[1], x[2]}, i - first});
       }
-      voro::c_loop_order loop(nodes, order);
-      std::size_t i = first;
-      if (loop.start())
-        do
-        {
-          voro::voronoicell whole;
-          std::vector<ConvexPolyhedron> pieces;
-          const Place x = frame.in_cubes(result.nodes[i]);
-          if (nodes.compute_cell(whole, loop))
-            pieces = pieces_of(whole, x, boxes, frame);
-          if (pieces.empty())
-            reject(result.source[i], result.nodes[i],
-                   "has a cell without volume, since others are too near to it; move or take out "
-                   "nodes");
-          append(result, std::move(pieces));
-          ++i;
-        } while (loop.inc());
+      const Delaunay delaunay(points.begin(), points.end());
+      std::vector<Delaunay::Vertex_handle> vertices(last - first);
+      for (const auto &vertex : delaunay.finite_vertex_handles())
+        vertices[vertex->info()] = vertex;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const ClippedPolyhedron whole = voronoi_cell(delaunay, vertices[i - first], frame);
+        std::vector<ConvexPolyhedron> pieces;
+        if (!whole.vertices().empty())
+          pieces = pieces_of(whole, frame.in_cubes(result.nodes[i]), boxes, frame);
+        if (pieces.empty())
+          reject(result.source[i], result.nodes[i],
+                 "has a cell without volume, since others are too near to it; move or take out "
+                 "nodes");
+        append(result, std::move(pieces));
+      }
     }
   } // namespace
 
@@ -376,11 +350,11 @@ namespace plumbline::geometry
         for (const Place &x : nodes)
           margin = std::max(margin, is_upper ? x[d] - box.upper[d] : box.lower[d] - x[d]);
         if (!nodes.empty() && margin < horizon - omega.h())
-          throw InputError("nodes end at " + std::string(1, "xyz"[d]) + " = " +
-                           base::to_text(is_upper ? box.upper[d] + margin : box.lower[d] - margin,
-                                         4) +
-                           ", but the interaction domain is as wide as the horizon = " +
-                           base::to_text(horizon, 4) + " on all sides; add nodes there");
+          throw InputError(
+              "nodes end at " + std::string(1, "xyz"[d]) + " = " +
+              base::to_text(is_upper ? box.upper[d] + margin : box.lower[d] - margin, 4) +
+              ", but the interaction domain is as wide as the horizon = " +
+              base::to_text(horizon, 4) + " on all sides; add nodes there");
         most = std::max(most, margin);
       }
     return std::max(layers_for(horizon, omega.h()), static_cast<int>(std::ceil(most / omega.h())));

@@ -9,7 +9,7 @@ namespace plumbline::geometry
   /// of so many cubes around its bounding box, so that the cells tile both: the volumes add up to
   /// those of Ω and the layer to 1e-12. A cell that no boundary cuts is one piece; else its pieces
   /// are its overlaps with boxes. A node on the boundary of Ω lies in Ω.
-  /// Cost: some 40 µs and 6 kB a node.
+  /// Cost: some 60 µs and 6 kB a node.
   /// @throws InputError  two nodes in one place (see find_coincident_nodes), a node outside Ω and
   /// the layer, a coordinate that is not finite, naming the node by its index; no node in Ω, or
   /// none in the layer

@@ -4,6 +4,8 @@
 #include "problem/surface_terms.h"
 #include "scene/models/model.h"
 
+#include <set>
+
 namespace plumbline::study
 {
   namespace
@@ -44,6 +46,15 @@ namespace plumbline::study
              "; families end at the boundary";
     }
   } // namespace
+
+  bool is_of_equation(const std::string &fact)
+  {
+    static const std::set<std::string> all = {
+        "model",       "dimension",   "kernel",     "constraint",        "constants",
+        "local limit", "coefficient", "dilatation", "varying constants", "boundary function",
+        "broken bonds"};
+    return all.count(fact) > 0;
+  }
 
   void add_model_facts(const scene::Scene &scene, std::map<std::string, std::string> &facts)
   {

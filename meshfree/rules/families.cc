@@ -37,6 +37,18 @@ namespace plumbline::meshfree
     }
 
     template <int dim>
+    double distance_square(const Point<dim> &x, const typename geometry::BoxSearch<dim>::Box &box)
+    {
+      double sum = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double way = std::max({0., box.lower[d] - x[d], x[d] - box.upper[d]});
+        sum += way * way;
+      }
+      return sum;
+    }
+
+    template <int dim>
     std::string words(std::size_t index, const Point<dim> &x)
     {
       std::ostringstream place;
@@ -84,13 +96,15 @@ namespace plumbline::meshfree
     std::size_t n = 0;
     for (const unsigned int j : family.neighbours)
     {
+      if (j == node || distance_square<dim>(x, search_.box(j)) > reach_ * reach_)
+        continue;
       const std::size_t first = cells_->first_piece[j];
       const Candidate<dim> candidate{{x, kernel_.horizon()},
                                      backend_,
                                      Point<dim>(cells_->nodes[j] - x),
                                      cells_->area[j],
                                      {pieces + first, cells_->first_piece[j + 1] - first}};
-      if (j != node && add_bond(rule_, kernel_, candidate, family))
+      if (add_bond(rule_, kernel_, candidate, family))
         family.neighbours[n++] = j;
     }
     family.neighbours.resize(n);

@@ -37,7 +37,7 @@ namespace plumbline::reference
       std::vector<Point<2>> points;
       for (std::size_t dof = 0; dof < space.n_dofs(); ++dof)
         points.push_back(space.support(dof));
-      const geometry::BoxSearch nodes = search_points(points);
+      const geometry::BoxSearch<2> nodes = search_points(points);
       const double largest = *std::max_element(form.radius.begin(), form.radius.end());
       std::vector<std::vector<unsigned int>> columns(space.n_dofs());
       in_parallel(

@@ -35,12 +35,12 @@ namespace plumbline::reference
     return {Point<2>(x - reach), Point<2>(x + reach)};
   }
 
-  geometry::BoxSearch search_points(const std::vector<Point<2>> &points)
+  geometry::BoxSearch<2> search_points(const std::vector<Point<2>> &points)
   {
     std::vector<geometry::Box> boxes;
     for (const Point<2> &x : points)
       boxes.push_back({x, x});
-    return geometry::BoxSearch(std::move(boxes));
+    return geometry::BoxSearch<2>(std::move(boxes));
   }
 
   template <unsigned int n>

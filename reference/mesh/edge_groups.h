@@ -9,7 +9,7 @@
 namespace plumbline::reference
 {
   geometry::Box box_about(const Point<2> &x, double radius);
-  geometry::BoxSearch search_points(const std::vector<Point<2>> &points);
+  geometry::BoxSearch<2> search_points(const std::vector<Point<2>> &points);
 
   /// What edges with one first end give to rows of their nodes.
   struct EdgeGroup
@@ -68,6 +68,6 @@ namespace plumbline::reference
     double horizon_, largest_radius_ = 0;
     bool has_inside_; ///< the whole potential is not zero there
     EdgeIntegrals<n> integrals_;
-    geometry::BoxSearch middles_;
+    geometry::BoxSearch<2> middles_;
   };
 } // namespace plumbline::reference

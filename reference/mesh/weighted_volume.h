@@ -32,6 +32,6 @@ namespace plumbline::reference
     std::vector<physics::Kernel<2>> parts_; ///< without breaks, that add up to the kernel
     double full_;                           ///< of the whole ball
     std::vector<Side> sides_;
-    geometry::BoxSearch search_;
+    geometry::BoxSearch<2> search_;
   };
 } // namespace plumbline::reference
