@@ -40,6 +40,18 @@ namespace plumbline::report
       return ticks;
     }
 
+    constexpr int usual_digits = 6;
+
+    /// That figures at linear steps need to differ.
+    int digits_of_steps(const Range &range)
+    {
+      constexpr double n_steps = 10, most = 11;
+      const double largest = std::max(std::abs(range.low), std::abs(range.high)),
+                   step = (range.high - range.low) / n_steps;
+      return std::max(usual_digits, 1 + static_cast<int>(std::clamp(
+                                            std::ceil(std::log10(largest / step)), 0., most)));
+    }
+
     /// Powers of ten, or linear steps; every level of h where there are few.
     std::string axis(char name, const Range &range, bool is_log, const std::vector<double> &ticks)
     {
@@ -72,8 +84,8 @@ namespace plumbline::report
         out << (step == 1 ? "set m" : "unset m") << name << "tics\n";
       }
       else
-        out << "set " << name << "tics nomirror autofreq\nset format " << name << " '%g'\nunset m"
-            << name << "tics\n";
+        out << "set " << name << "tics nomirror autofreq\nset format " << name << " '%."
+            << digits_of_steps(range) << "g'\nunset m" << name << "tics\n";
       return out.str();
     }
 
@@ -89,10 +101,12 @@ namespace plumbline::report
     }
 
     /// Size, margins and legend: every method has a line of the one column of the legend.
-    std::string frame(const Plot &plot)
+    /// @param y_digits  of figures at its steps
+    std::string frame(const Plot &plot, int y_digits)
     {
       // In pixels; a line of the legend is this high.
-      constexpr double width = 820, line = 23.5;
+      constexpr double width = 820, line = 23.5, figure = 10, left = 100, left_of_many = 114;
+      const int n_more = y_digits - usual_digits;
       double longest = width_of(plot.frontier_label);
       std::size_t n = 1;
       for (const Line &one : plot.lines)
@@ -106,9 +120,10 @@ namespace plumbline::report
       std::ostringstream out;
       out << "set terminal svg size " << width << "," << height
           << " dynamic enhanced font 'sans-serif,14' background '#ffffff'\n"
-          << "set lmargin at screen " << 100 / width << "\nset rmargin at screen "
-          << 1 - (legend + 14) / width << "\nset bmargin at screen " << 62 / height
-          << "\nset tmargin at screen " << 1 - 40 / height << "\nset key at screen "
+          << "set lmargin at screen "
+          << (n_more > 0 ? left_of_many + figure * n_more : left) / width
+          << "\nset rmargin at screen " << 1 - (legend + 14) / width << "\nset bmargin at screen "
+          << 62 / height << "\nset tmargin at screen " << 1 - 40 / height << "\nset key at screen "
           << 1 - legend / width << ", screen " << 1 - 36 / height
           << " left top Left reverse samplen 2.4 spacing 1.1 maxcols 1 noenhanced\n";
       return out.str();
@@ -328,8 +343,9 @@ namespace plumbline::report
           curves.add_bars(line);
         curves.add_line(line);
       }
-      return curves.data() + "reset\n" + frame(plot) + "set output " + quote_gnuplot(plot.file) +
-             "\n" + axes_commands(plot, view) +
+      return curves.data() + "reset\n" +
+             frame(plot, plot.is_y_log ? usual_digits : digits_of_steps(view.y)) + "set output " +
+             quote_gnuplot(plot.file) + "\n" + axes_commands(plot, view) +
              (plot.has_slopes ? slopes_commands(plot, view) : "") +
              (view.has_strip ? strip_commands(view.strip) : "") + curves.commands();
     }

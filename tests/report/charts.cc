@@ -342,7 +342,8 @@ namespace plumbline::report
     ASSERT_NE(shown(), nullptr);
     EXPECT_EQ(shown()->method, "P0"); // Q1 is more accurate
     ASSERT_EQ(list_charts(results).back().kind, ChartKind::solution);
-    EXPECT_EQ(list_charts(results).back().title, "case1, m = 3, h = 0.1: the solution by P0");
+    EXPECT_EQ(list_charts(results).back().title,
+              "case1, m = 3, h = 0.1: solution computed with P0");
 
     write_charts(results, folder.path());
     const std::string svg = fixture::read(folder.path() / "charts" / "solution.svg"),
@@ -358,6 +359,26 @@ namespace plumbline::report
     results.maps[0].n_components = 2;
     EXPECT_TRUE(holds(solution_script(results.maps[0], "a.svg"), "'|u| [unit of the solution]'"));
     EXPECT_TRUE(holds(solution_script(results.maps[0], "a.svg"), "set cbrange [-0.5:1]\n"));
+  }
+
+  TEST(ReportCharts, HaveFiguresThatDifferAtTheStepsOfALinearAxis)
+  {
+    const auto script = [](const Range &range)
+    {
+      Plot plot;
+      plot.is_y_log = false;
+      plot.y_range = range;
+      plot.lines.push_back({"FA", style_of(0, false), 1.8, {{1, range.low}, {2, range.high}}});
+      return gnuplot_script({plot});
+    };
+    EXPECT_TRUE(holds(script({0, 1}), "format y '%.6g'"));
+    EXPECT_TRUE(holds(script({2.41992, 2.41994}), "format y '%.8g'")); // steps of 2e-6
+    const auto margin = [&](const Range &range)
+    {
+      const std::string text = script(range), head = "lmargin at screen ";
+      return std::stod(text.substr(text.find(head) + head.size()));
+    };
+    EXPECT_GT(margin({2.41992, 2.41994}), margin({0, 1}));
   }
 
   TEST(ReportCharts, HaveRangesWithTwoPowersOfTen)
