@@ -148,11 +148,12 @@ namespace plumbline::python
       const std::vector<Point<2>> places = to_points(nodes, "nodes");
       const std::vector<double> own = to_volumes(volumes, places.size());
       return weights_on<2>(found.in_plane(kernel), kernel, own,
-                        [&]
-                        {
-                          return geometry::voronoi_cells(
-                              places, geometry::lattice_mesh(domain, h, kernel.horizon(), false));
-                        });
+                           [&]
+                           {
+                             return geometry::voronoi_cells(
+                                 places,
+                                 geometry::lattice_mesh(domain, h, kernel.horizon(), false));
+                           });
     }
 
     py::list all_methods_as_dicts()
@@ -171,6 +172,10 @@ namespace plumbline::python
       return {};
     const auto array = given.cast<Doubles>();
     require_length(array, n_nodes, "volumes", "node");
+    for (std::size_t k = 0; k < n_nodes; ++k)
+      if (!(array.data()[k] > 0) || !std::isfinite(array.data()[k]))
+        throw InputError("volumes[" + std::to_string(k) + "] = " + std::to_string(array.data()[k]) +
+                         " is not positive; give the size of the node's cell");
     return {array.data(), array.data() + array.size()};
   }
 

@@ -91,8 +91,7 @@ namespace plumbline::python
     geometry::NodeCells<3> cells_of(const std::vector<Point<3>> &nodes,
                                     const geometry::CubeLattice &lattice, double horizon)
     {
-      return geometry::voronoi_cells(nodes, lattice,
-                                     geometry::layers_around(nodes, lattice, horizon));
+      return geometry::voronoi_cells(nodes, lattice, horizon);
     }
 
     std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &lame,
@@ -107,8 +106,9 @@ namespace plumbline::python
                                           h);
       ProblemInSpace problem = problem_of(lattice, kernel, lame);
       if (!nodes.is_none() && problem.dilatation)
-        throw InputError("nodes with lame: scattered nodes in space have bonds only; leave out one "
-                         "of them, or give lambda = mu");
+        throw InputError(
+            "nodes cannot be combined with lame: scattered nodes in three dimensions "
+            "support bond-based models only; omit one of the two, or give lambda = mu");
       std::vector<Point<3>> places;
       if (!nodes.is_none())
         places = to_points<3>(nodes.cast<Doubles>(), "nodes");
@@ -134,7 +134,7 @@ namespace plumbline::python
                                           h);
       const meshfree::Rule found = to_rule(py::str(rule));
       if (!found.in_space)
-        throw InputError("rule '" + rule + "' is for the plane; choose another");
+        throw InputError("rule '" + rule + "' is available in two dimensions only; choose another");
       const std::vector<Point<3>> places = to_points<3>(nodes, "nodes");
       return weights_on<3>(found.in_space(kernel), kernel, to_volumes(volumes, places.size()),
                            [&] { return cells_of(places, lattice, kernel.horizon()); });
@@ -259,26 +259,26 @@ kernel      of the bonds; with lame, the influence function (only its profile an
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
-nodes       scattered nodes of meshfree rules, shape (n, 3) [length], in the boxes (free) and within a horizon
-            around them, with Voronoi cells; default: the centres of the cubes
+nodes       scattered nodes of meshfree rules, shape (n, 3) [length], free in the boxes and constrained in a layer
+            at least one horizon wide around them; default: the centres of the cubes
 load, constraint, solution
             each an expression in x, y and z ("sin(3*x)*z"; three components separated by commas), a
             number, or a function f(x, y, z) of arrays, which is called point by point and slower.
             Without a load: that of the solution; without a constraint: the solution
 lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is then prescribed within two
             horizons of the boxes (one if lambda = mu))doc")
-        .def(py::init(
-                 [](const Kernel<3> &kernel, const py::object &box, double h,
-                    const py::object &nodes, const py::object &exclude, const py::object &load, const py::object &constraint,
-                    const py::object &solution, const py::object &lame)
-                 {
-                   return std::const_pointer_cast<ProblemInSpace>(
-                       pose(kernel, lame, box, exclude, h, nodes, load, constraint, solution));
-                 }),
-             "kernel"_a, py::kw_only(), "box"_a, "h"_a, "nodes"_a = py::none(),
-             "exclude"_a = py::none(),
-             "load"_a = py::none(), "constraint"_a = py::none(), "solution"_a = py::none(),
-             "lame"_a = py::none())
+        .def(
+            py::init(
+                [](const Kernel<3> &kernel, const py::object &box, double h,
+                   const py::object &nodes, const py::object &exclude, const py::object &load,
+                   const py::object &constraint, const py::object &solution, const py::object &lame)
+                {
+                  return std::const_pointer_cast<ProblemInSpace>(
+                      pose(kernel, lame, box, exclude, h, nodes, load, constraint, solution));
+                }),
+            "kernel"_a, py::kw_only(), "box"_a, "h"_a, "nodes"_a = py::none(),
+            "exclude"_a = py::none(), "load"_a = py::none(), "constraint"_a = py::none(),
+            "solution"_a = py::none(), "lame"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
         .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
     py::class_<SolvedInSpace>(module, "SpaceSolution",

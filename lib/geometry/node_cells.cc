@@ -157,8 +157,6 @@ namespace plumbline::geometry
 
   template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &,
                                                                 double);
-  template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<3>> &,
-                                                                double);
 
   std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
                                                        const Mesh &mesh)

@@ -45,7 +45,7 @@ namespace plumbline::geometry
   std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<dim>> &nodes,
                                                        double size);
 
-  /// Of a mesh's size: √(its area / nodes).
+  /// The same with cell size √(area of the mesh / number of nodes).
   std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,
                                                        const Mesh &mesh);
 

@@ -15,6 +15,8 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace plumbline::geometry
@@ -78,65 +80,73 @@ namespace plumbline::geometry
       return boxes;
     }
 
-    /// The lattice of Ω and the layer around its bounding box, in units of a cube with the lower
-    /// corner of the layer at the origin.
+    /// A box in units of the lattice's cubes, about the lower corner of Ω's bounding box.
+    struct Range
+    {
+      Place lower, upper;
+    };
+
+    /// How Ω, and a layer around its bounding box, are made up of boxes.
     class Frame
     {
     public:
-      Frame(const CubeLattice &omega, int n_layers) : omega_(&omega), n_layers_(n_layers)
+      /// @param layer  with Ω [length]
+      Frame(const CubeLattice &omega, const Cuboid &layer)
+          : omega_(&omega), layer_{in_cubes(layer.lower), in_cubes(layer.upper)}
       {
-        for (unsigned int d = 0; d < 3; ++d)
-          n_[d] = omega.n_cells()[d] + 2 * n_layers;
       }
 
-      const std::array<int, 3> &n() const { return n_; }
+      const Range &layer() const { return layer_; }
 
       /// In cubes, of a place [length].
-      Place in_cubes(const Place &x) const
-      {
-        return Place((x - omega_->origin()) / omega_->h() +
-                     dealii::Tensor<1, 3>({1. * n_layers_, 1. * n_layers_, 1. * n_layers_}));
-      }
+      Place in_cubes(const Place &x) const { return Place((x - omega_->origin()) / omega_->h()); }
 
       Place place(const Place &in_cubes) const
       {
         Place x;
         for (unsigned int d = 0; d < 3; ++d)
-          x[d] = omega_->coordinate(d, in_cubes[d] - n_layers_);
+          x[d] = omega_->coordinate(d, in_cubes[d]);
         return x;
       }
 
-      bool is_omega(const std::array<int, 3> &cell) const
-      {
-        return omega_->is_inside({cell[0] - n_layers_, cell[1] - n_layers_, cell[2] - n_layers_});
-      }
-
-      bool is_within(const Place &in_cubes) const
-      {
-        bool is = true;
-        for (unsigned int d = 0; d < 3; ++d)
-          is = is && in_cubes[d] >= 0 && in_cubes[d] <= n_[d];
-        return is;
-      }
-
       /// Of Ω, or of the layer.
-      std::vector<CubeRange> boxes(bool of_omega) const
+      std::vector<Range> boxes(bool of_omega) const
       {
-        std::vector<char> is_inside;
-        for_each_index({0, 0, 0}, n_,
+        std::array<int, 3> from{}, to{}, n{};
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          from[d] = static_cast<int>(std::floor(layer_.lower[d]));
+          to[d] = static_cast<int>(std::ceil(layer_.upper[d]));
+          n[d] = to[d] - from[d];
+        }
+        std::vector<char> is_wanted;
+        for_each_index(from, to,
                        [&](const std::array<int, 3> &cell)
-                       { is_inside.push_back(is_omega(cell) == of_omega ? 1 : 0); });
-        return disjoint_boxes(std::move(is_inside), n_);
+                       { is_wanted.push_back(omega_->is_inside(cell) == of_omega ? 1 : 0); });
+        std::vector<Range> result;
+        for (const CubeRange &box : disjoint_boxes(std::move(is_wanted), n))
+        {
+          Range range;
+          bool is_there = true;
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            range.lower[d] = std::max(layer_.lower[d], 1. * from[d] + box.lower[d]);
+            range.upper[d] = std::min(layer_.upper[d], 1. * from[d] + box.upper[d]);
+            is_there = is_there && range.lower[d] < range.upper[d];
+          }
+          if (is_there)
+            result.push_back(range);
+        }
+        return result;
       }
 
     private:
       const CubeLattice *omega_;
-      int n_layers_;
-      std::array<int, 3> n_{};
+      Range layer_;
     };
 
-    /// The part of a cell about a node in a range of cubes; false: there is none.
-    bool clip(ClippedPolyhedron &cell, const Place &node, const CubeRange &range)
+    /// The part of a cell about a node in a box; false: there is none.
+    bool clip(ClippedPolyhedron &cell, const Place &node, const Range &range)
     {
       for (unsigned int d = 0; d < 3; ++d)
       {
@@ -150,11 +160,9 @@ namespace plumbline::geometry
     }
 
     /// Of a cell about a node, in cubes.
-    struct Extent
+    struct Extent : Cuboid
     {
-      Place lower, upper;
-
-      Extent(const ClippedPolyhedron &cell, const Place &node) : lower(node), upper(node)
+      Extent(const ClippedPolyhedron &cell, const Place &node) : Cuboid{node, node}
       {
         for (const Place &x : cell.vertices())
           for (unsigned int d = 0; d < 3; ++d)
@@ -164,49 +172,64 @@ namespace plumbline::geometry
           }
       }
 
-      bool is_in(const CubeRange &range) const
+      bool is_in(const Range &range) const
       {
         bool is = true;
         for (unsigned int d = 0; d < 3; ++d)
           is = is && lower[d] >= range.lower[d] && upper[d] <= range.upper[d];
         return is;
       }
-
-      bool meets(const CubeRange &range) const
-      {
-        bool is = true;
-        for (unsigned int d = 0; d < 3; ++d)
-          is = is && lower[d] < range.upper[d] && upper[d] > range.lower[d];
-        return is;
-      }
     };
 
-    /// What of a Voronoi cell about a node is in one of the boxes.
-    std::vector<ConvexPolyhedron> pieces_of(const ClippedPolyhedron &whole, const Place &node,
-                                            const std::vector<CubeRange> &boxes, const Frame &frame)
+    /// Boxes in cubes that are looked for.
+    class Boxes
     {
-      const auto placed = [&](const ClippedPolyhedron &cell)
+    public:
+      explicit Boxes(std::vector<Range> boxes) : boxes_(std::move(boxes)), search_(cuboids(boxes_))
       {
-        return cell.placed([&](const Place &x)
-                           { return frame.place(node + dealii::Tensor<1, 3>(x)); });
-      };
-      const Extent extent(whole, node);
-      if (std::any_of(boxes.begin(), boxes.end(),
-                      [&](const CubeRange &box) { return extent.is_in(box); }))
-        return {placed(whole)};
-      std::vector<ConvexPolyhedron> pieces;
-      double covered = 0;
-      for (const CubeRange &box : boxes)
-        if (ClippedPolyhedron part = whole; extent.meets(box) && clip(part, node, box))
-          if (const double volume = part.volume(); volume > sliver)
-          {
-            covered += volume;
-            pieces.push_back(placed(part));
-          }
-      if (pieces.size() > 1 && std::abs(covered - whole.volume()) <= uncut * whole.volume())
-        return {placed(whole)};
-      return pieces;
-    }
+      }
+
+      /// What of a Voronoi cell about a node is in one of them.
+      std::vector<ConvexPolyhedron> pieces_of(const ClippedPolyhedron &whole, const Place &node,
+                                              const Frame &frame) const
+      {
+        const auto placed = [&](const ClippedPolyhedron &cell)
+        {
+          return cell.placed([&](const Place &x)
+                             { return frame.place(node + dealii::Tensor<1, 3>(x)); });
+        };
+        const Extent extent(whole, node);
+        std::vector<unsigned int> near;
+        search_.find(extent, near);
+        if (std::any_of(near.begin(), near.end(),
+                        [&](unsigned int box) { return extent.is_in(boxes_[box]); }))
+          return {placed(whole)};
+        std::vector<ConvexPolyhedron> pieces;
+        double covered = 0;
+        for (const unsigned int box : near)
+          if (ClippedPolyhedron part = whole; clip(part, node, boxes_[box]))
+            if (const double volume = part.volume(); volume > sliver)
+            {
+              covered += volume;
+              pieces.push_back(placed(part));
+            }
+        if (pieces.size() > 1 && std::abs(covered - whole.volume()) <= uncut * whole.volume())
+          return {placed(whole)};
+        return pieces;
+      }
+
+    private:
+      static std::vector<Cuboid> cuboids(const std::vector<Range> &boxes)
+      {
+        std::vector<Cuboid> result;
+        for (const Range &box : boxes)
+          result.push_back({box.lower, box.upper});
+        return result;
+      }
+
+      std::vector<Range> boxes_;
+      BoxSearch<3> search_;
+    };
 
     /// The part of a frame that is nearer to a node than to its neighbours in the Delaunay
     /// triangulation, about the node.
@@ -220,14 +243,14 @@ namespace plumbline::geometry
       Place lower, upper;
       for (unsigned int d = 0; d < 3; ++d)
       {
-        lower[d] = -margin - x[d];
-        upper[d] = frame.n()[d] + margin - x[d];
+        lower[d] = frame.layer().lower[d] - margin - x[d];
+        upper[d] = frame.layer().upper[d] + margin - x[d];
       }
       ClippedPolyhedron cell(lower, upper);
       std::vector<Delaunay::Vertex_handle> neighbours;
-      if (delaunay.dimension() == 3)
+      if (delaunay.dimension() >= 2)
         delaunay.finite_adjacent_vertices(node, std::back_inserter(neighbours));
-      else // all of them, as they lie in a plane
+      else // all of them, as they lie on a line
         for (const Delaunay::Vertex_handle other : delaunay.finite_vertex_handles())
           if (other != node)
             neighbours.push_back(other);
@@ -258,7 +281,7 @@ namespace plumbline::geometry
     /// Adds the cells of nodes[first ... last - 1], all of Ω or all of the layer.
     void add_cells(NodeCells<3> &result, std::size_t first, std::size_t last, const Frame &frame)
     {
-      const std::vector<CubeRange> boxes = frame.boxes(first < result.n_free);
+      const Boxes boxes(frame.boxes(first < result.n_free));
       std::vector<std::pair<Delaunay::Point, std::size_t>> points;
       for (std::size_t i = first; i < last; ++i)
       {
@@ -271,14 +294,21 @@ namespace plumbline::geometry
         vertices[vertex->info()] = vertex;
       for (std::size_t i = first; i < last; ++i)
       {
-        const ClippedPolyhedron whole = voronoi_cell(delaunay, vertices[i - first], frame);
         std::vector<ConvexPolyhedron> pieces;
-        if (!whole.vertices().empty())
-          pieces = pieces_of(whole, frame.in_cubes(result.nodes[i]), boxes, frame);
+        try
+        {
+          const ClippedPolyhedron whole = voronoi_cell(delaunay, vertices[i - first], frame);
+          if (!whole.vertices().empty())
+            pieces = boxes.pieces_of(whole, frame.in_cubes(result.nodes[i]), frame);
+        }
+        catch (const std::runtime_error &error)
+        {
+          reject(result.source[i], result.nodes[i], std::string(": ") + error.what());
+        }
         if (pieces.empty())
           reject(result.source[i], result.nodes[i],
-                 "has a cell without volume, since others are too near to it; move or take out "
-                 "nodes");
+                 "has a Voronoi cell of zero volume because other nodes are too close; move or "
+                 "remove nodes");
         append(result, std::move(pieces));
       }
     }
@@ -299,10 +329,101 @@ namespace plumbline::geometry
     return box;
   }
 
-  NodeCells<3> voronoi_cells(const std::vector<Place> &nodes, const CubeLattice &omega,
-                             int n_layers)
+  namespace
   {
-    const Frame frame(omega, n_layers);
+    /// Beyond a box, 0 in it.
+    double distance(const Place &x, const Cuboid &box)
+    {
+      double square = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        square += std::pow(std::max({0., box.lower[d] - x[d], x[d] - box.upper[d]}), 2);
+      return std::sqrt(square);
+    }
+
+    /// The same along the axis where it is most.
+    double largest_distance(const Place &x, const Cuboid &box)
+    {
+      double most = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        most = std::max({most, box.lower[d] - x[d], x[d] - box.upper[d]});
+      return most;
+    }
+
+    /// As far as nodes go beyond a box on each side, and half their spacing more.
+    Cuboid layer_of(const std::vector<Place> &nodes, const Cuboid &box, double horizon,
+                    double spacing)
+    {
+      Cuboid layer = box;
+      for (unsigned int d = 0; d < 3; ++d)
+        for (const bool is_upper : {false, true})
+        {
+          double margin = -std::numeric_limits<double>::infinity();
+          for (const Place &x : nodes)
+            margin = std::max(margin, is_upper ? x[d] - box.upper[d] : box.lower[d] - x[d]);
+          if (margin < horizon - 1.01 * spacing)
+            throw InputError(
+                "nodes end at " + std::string(1, "xyz"[d]) + " = " +
+                base::to_text(is_upper ? box.upper[d] + margin : box.lower[d] - margin, 4) +
+                ", but the interaction domain extends one horizon (" + base::to_text(horizon, 4) +
+                ") beyond the domain on every side; add nodes there");
+          (is_upper ? layer.upper : layer.lower)[d] +=
+              (is_upper ? 1 : -1) * (std::max(margin, 0.) + spacing / 2);
+        }
+      return layer;
+    }
+
+    /// That each place of the interaction domain has a node near it, so that cells are of its size.
+    void check_filled(const NodeCells<3> &cells, const CubeLattice &omega, double horizon,
+                      double spacing)
+    {
+      constexpr double far = 2.5; // spacings
+      const std::vector<Cuboid> boxes = omega.boxes();
+      for (std::size_t i = cells.n_free; i < cells.size(); ++i)
+        for (std::size_t p = cells.first_piece[i]; p < cells.first_piece[i + 1]; ++p)
+          for (const Place &x : cells.pieces[p].vertices())
+            if (x.distance(cells.nodes[i]) > far * spacing &&
+                std::any_of(boxes.begin(), boxes.end(),
+                            [&](const Cuboid &box) { return distance(x, box) < .999 * horizon; }))
+            {
+              std::ostringstream why;
+              why << "is the nearest one to (" << x[0] << ", " << x[1] << ", " << x[2]
+                  << ") in the interaction domain, " << x.distance(cells.nodes[i])
+                  << " away, where nodes are about " << spacing << " apart; add nodes there";
+              reject(cells.source[i], cells.nodes[i], why.str());
+            }
+    }
+
+    void check_coincident(const std::vector<Place> &nodes, double size)
+    {
+      constexpr double too_near = 1e-12;
+      std::vector<Cuboid> points;
+      for (const Place &x : nodes)
+        points.push_back({x, x});
+      const BoxSearch<3> search(points);
+      std::vector<unsigned int> near;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        Cuboid around{nodes[i], nodes[i]};
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          around.lower[d] -= too_near * size;
+          around.upper[d] += too_near * size;
+        }
+        search.find(around, near);
+        for (const unsigned int j : near)
+          if (j < i)
+            reject(i, nodes[i],
+                   CoincidentNodes{j, i, nodes[i].distance(nodes[j]), size}.place(
+                       "node " + std::to_string(j)) +
+                       "; take one of them out");
+      }
+    }
+  } // namespace
+
+  NodeCells<3> voronoi_cells(const std::vector<Place> &nodes, const CubeLattice &omega,
+                             double horizon)
+  {
+    constexpr double most = 3; // between spacing and h
     NodeCells<3> result;
     std::vector<std::size_t> around;
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -310,54 +431,44 @@ namespace plumbline::geometry
       const Place &x = nodes[i];
       if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
         reject(i, x, "is not finite; give finite coordinates");
-      if (!frame.is_within(frame.in_cubes(x)))
-        reject(i, x,
-               "lies outside of the domain and its interaction domain; take it out, or move it in");
       (omega.cell_at(x) ? result.source : around).push_back(i);
     }
     const std::string none = "none of the " + std::to_string(nodes.size()) + " nodes lies in the ";
     if (result.source.empty())
-      throw InputError(none + "domain; add nodes there");
-    if (around.empty())
-      throw InputError(none + "interaction domain; add nodes there, they carry the data");
-    if (const auto two = find_coincident_nodes(nodes, omega.h()))
-      reject(two->second, nodes[two->second],
-             two->place("node " + std::to_string(two->first)) + "; take one of them out");
-
+      throw InputError(none + "domain; are their lengths in the same unit? Add nodes there");
     result.n_free = result.source.size();
-    result.source.insert(result.source.end(), around.begin(), around.end());
+    const double spacing = omega.h() * std::cbrt(static_cast<double>(omega.size()) /
+                                                 static_cast<double>(result.n_free));
+    if (spacing > most * omega.h() || omega.h() > most * spacing)
+      throw InputError("nodes are about " + base::to_text(spacing, 4) +
+                       " apart, but h = " + base::to_text(omega.h(), 4) +
+                       "; are the lengths of nodes and domain in the same unit? Take an h of the "
+                       "size of the spacing");
+    std::vector<Place> kept;
+    for (const std::size_t i : around)
+      if (largest_distance(nodes[i], omega.cuboid()) <= horizon + 2 * spacing)
+      {
+        result.source.push_back(i);
+        kept.push_back(nodes[i]);
+      }
+    if (kept.empty())
+      throw InputError(none +
+                       "interaction domain; add nodes there, they carry the prescribed values");
     for (const std::size_t i : result.source)
       result.nodes.push_back(nodes[i]);
+    check_coincident(nodes, spacing);
+
+    const Frame frame(omega, layer_of(kept, omega.cuboid(), horizon, spacing));
     result.first_piece = {0};
     add_cells(result, 0, result.n_free, frame);
     add_cells(result, result.n_free, result.size(), frame);
+    check_filled(result, omega, horizon, spacing);
     return result;
   }
 
   int layers_for(double horizon, double h)
   {
     return static_cast<int>(std::ceil(horizon / h - 1e-9)) + 1;
-  }
-
-  int layers_around(const std::vector<Place> &nodes, const CubeLattice &omega, double horizon)
-  {
-    const Cuboid box = omega.cuboid();
-    double most = 0;
-    for (unsigned int d = 0; d < 3; ++d)
-      for (const bool is_upper : {false, true})
-      {
-        double margin = -std::numeric_limits<double>::infinity();
-        for (const Place &x : nodes)
-          margin = std::max(margin, is_upper ? x[d] - box.upper[d] : box.lower[d] - x[d]);
-        if (!nodes.empty() && margin < horizon - omega.h())
-          throw InputError(
-              "nodes end at " + std::string(1, "xyz"[d]) + " = " +
-              base::to_text(is_upper ? box.upper[d] + margin : box.lower[d] - margin, 4) +
-              ", but the interaction domain is as wide as the horizon = " +
-              base::to_text(horizon, 4) + " on all sides; add nodes there");
-        most = std::max(most, margin);
-      }
-    return std::max(layers_for(horizon, omega.h()), static_cast<int>(std::ceil(most / omega.h())));
   }
 
   std::vector<Place> lattice_nodes(const CubeLattice &omega, int n_layers, double perturbation,

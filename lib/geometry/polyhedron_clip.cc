@@ -63,8 +63,8 @@ namespace plumbline::geometry
       if (try_clip(unit, heights, tolerance))
         return true;
     }
-    throw NumericalError("a Voronoi cell cannot be cut, because too many nodes are at the same "
-                         "distance but for rounding; round their coordinates, or move nodes");
+    throw NumericalError("a Voronoi cell cannot be clipped: too many nodes are equidistant up to "
+                         "rounding; round their coordinates or move some nodes");
   }
 
   bool ClippedPolyhedron::try_clip(const Tensor<1, 3> &normal, const std::vector<double> &heights,

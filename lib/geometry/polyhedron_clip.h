@@ -6,7 +6,7 @@
 
 namespace plumbline::geometry
 {
-  /// A convex polyhedron that planes cut, one after the other.
+  /// A convex polyhedron, clipped by one half-space after another.
   class ClippedPolyhedron
   {
   public:
@@ -17,7 +17,7 @@ namespace plumbline::geometry
     /// lying on it; coordinates should be of order 1.
     /// @param normal  ≠ 0, of any length
     /// @return        whether there is such a part
-    /// @throws NumericalError  rounding leaves no way to cut it
+    /// @throws NumericalError  clipping fails because of rounding
     bool clip(const dealii::Tensor<1, 3> &normal, double offset);
 
     const std::vector<dealii::Point<3>> &vertices() const { return vertices_; }

@@ -28,7 +28,7 @@ namespace plumbline::method
     std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
   };
 
-  /// What a method makes of a problem in space, as Discretisation in the plane.
+  /// The discretisation of a problem in space; the counterpart of Discretisation.
   class DiscretisationInSpace
   {
   public:

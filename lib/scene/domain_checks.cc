@@ -8,6 +8,7 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace plumbline::scene
 {
@@ -176,7 +177,17 @@ namespace plumbline::scene
     {
       const NodeSource &nodes = scene.methods.nodes;
       if (!nodes.is_for_each_level())
+      {
+        std::set<double> sizes;
+        for (const Series &series : scene.study.series)
+          for (const Level &level : series.levels)
+            sizes.insert(level.h);
+        require(!scene.domain.is_in_space() || nodes.kind() != NodeKind::file || sizes.size() == 1,
+                "Methods/nodes = " + nodes.name +
+                    " would be the nodes for every h of Study/h; write one file for each, as "
+                    "nodes_{h}.csv, or give one h");
         return;
+      }
       for (const Series &series : scene.study.series)
         for (const Level &level : series.levels)
         {

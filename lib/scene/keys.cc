@@ -586,7 +586,7 @@ namespace plumbline::scene
     const bool has_all = static_cast<std::size_t>(most_words) == words.size();
     std::string described = found.empty() || has_all
                                 ? ""
-                                : "no key has all of these words; these have " +
+                                : "no key matches all of these words; the following match " +
                                       std::to_string(most_words) + " of " +
                                       std::to_string(words.size()) + "\n",
                 named;

@@ -16,7 +16,7 @@ namespace plumbline::scene
     {
       constexpr double of_node = 8000; // with its cell and what methods find of it [bytes]
       base::require_memory(n_nodes * of_node,
-                           "scattered nodes at h = " + base::to_text(level.h, 4) + " (some " +
+                           "scattered nodes at h = " + base::to_text(level.h, 4) + " (about " +
                                base::to_text(n_nodes, 2) + " nodes)",
                            "choose a larger h (Study/h)");
     }
@@ -35,8 +35,17 @@ namespace plumbline::scene
                                              const geometry::CubeLattice &lattice)
   {
     const NodeSource &source = scene.methods.nodes;
-    if (source.kind() != NodeKind::file)
+    const bool is_file = source.kind() == NodeKind::file;
+    const std::string file = source.file_at(level.h);
+    try
     {
+      if (is_file)
+      {
+        const auto nodes =
+            read_nodes_in_space((std::filesystem::path(scene.folder) / file).string());
+        check_memory(static_cast<double>(nodes.size()), level);
+        return voronoi_cells(nodes, lattice, level.horizon);
+      }
       const int n_layers = geometry::layers_for(level.horizon, level.h);
       double n = 1;
       for (const int along : lattice.n_cells())
@@ -44,19 +53,13 @@ namespace plumbline::scene
       check_memory(n, level);
       return voronoi_cells(
           lattice_nodes(lattice, n_layers, source.perturbation, scene.geometry.seed), lattice,
-          n_layers);
-    }
-    const std::string what = "Methods/nodes = " + source.name + ": ";
-    try
-    {
-      const auto nodes = read_nodes_in_space(
-          (std::filesystem::path(scene.folder) / source.file_at(level.h)).string());
-      check_memory(static_cast<double>(nodes.size()), level);
-      return voronoi_cells(nodes, lattice, layers_around(nodes, lattice, level.horizon));
+          level.horizon);
     }
     catch (const InputError &error)
     {
-      throw InputError(what + error.what() + " (nodes are counted from 0)");
+      throw InputError("Methods/nodes = " + (is_file ? file : source.name) +
+                       ", h = " + base::to_text(level.h, 4) + ": " + error.what() +
+                       (is_file ? " (nodes are counted from 0)" : ""));
     }
   }
 } // namespace plumbline::scene

@@ -40,10 +40,17 @@ namespace plumbline::scene
           nodes.perturbation > 0
               ? "Methods/perturbation = " + short_number(nodes.perturbation) + " with "
               : "Methods/nodes = " + nodes.name + " with ";
-      const std::string remedy = ", or take centres without perturbation";
+      require(scene.solver.iteration != base::Iteration::cg,
+              "Solver/iteration = cg needs a symmetric operator, but on scattered nodes a bond has "
+              "two weights, one for each end; write automatic, gmres or bicgstab");
+      require(scene.solver.operator_backend == base::OperatorBackend::automatic,
+              "Solver/operator = " + base::word(scene.solver.operator_backend) +
+                  " is for lattices; scattered nodes have a sparse matrix: write automatic");
+      const std::string remedy = ", or Methods/nodes = centres and Methods/perturbation = 0";
       needs(!scene.has_dilatation(), scattered + "Material/model = " + scene.material.model->name(),
             "write bond-based" + remedy);
-      needs(!scene.time.is_dynamic(), scattered + "a motion", "write Time/final time = 0" + remedy);
+      needs(!scene.time.is_dynamic(), scattered + "a transient analysis",
+            "write Time/final time = 0" + remedy);
     }
 
     void check_study_in_space(const Scene &scene)

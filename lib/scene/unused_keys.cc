@@ -44,7 +44,8 @@ namespace plumbline::scene
               {"Quadrature/max refinements", !is_in_space, exact},
               {"Geometry/backend", !is_in_space, "two dimensions"},
               {"Geometry/checks", !is_in_space, "two dimensions"},
-              {"Geometry/seed", !is_on_cubes, "two dimensions, or Methods/perturbation > 0"},
+              {"Geometry/seed", !is_in_space || scene.methods.nodes.perturbation > 0,
+               "two dimensions, or Methods/perturbation > 0"},
               {"Solver/linear solver", !is_on_cubes,
                "two dimensions or scattered nodes; lattices in three dimensions are solved by "
                "conjugate gradients with sine transforms"},

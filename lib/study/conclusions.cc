@@ -302,7 +302,8 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.solver.operator_backend != base::OperatorBackend::sparse)
+      else if (scene.solver.operator_backend != base::OperatorBackend::sparse &&
+               (!scene.domain.is_in_space() || scene.methods.nodes.are_lattice_centres()))
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
              "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +

@@ -5,6 +5,8 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace plumbline::meshfree
@@ -44,12 +46,9 @@ namespace plumbline::meshfree
         for (std::size_t i = 0; i < cells_->n_free; ++i)
           for (unsigned int c = 0; c < n_components_; ++c)
             result.load[i * n_components_ + c] = problem.load(cells_->nodes[i], c);
-        std::vector<double> constrained;
-        for (std::size_t i = cells_->n_free; i < cells_->size(); ++i)
-          for (unsigned int c = 0; c < n_components_; ++c)
-            constrained.push_back(problem.constraint.value(cells_->nodes[i], c));
-        method::subtract_constrained(constrained_, constrained, result.load);
-        result.field = [this](const Vector &u) { return field(u); };
+        const Surroundings around = surroundings(problem);
+        method::subtract_constrained(constrained_, around.values, result.load);
+        result.field = [this, middle = around.middle](const Vector &u) { return field(u, middle); };
         return result;
       }
 
@@ -62,13 +61,49 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
     private:
-      method::FieldInSpace field(const Vector &u) const
+      /// The constraint at the nodes that bonds reach, 0 at others, less the middle of its range:
+      /// the operator does not see a constant, but the solver's tolerance and rounding would.
+      struct Surroundings
+      {
+        std::vector<double> values; ///< shape (n_constrained, n_components)
+        std::vector<double> middle; ///< of each component
+      };
+
+      Surroundings surroundings(const problem::Problem<3> &problem) const
+      {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Surroundings around;
+        around.values.assign((cells_->size() - cells_->n_free) * n_components_, 0);
+        std::vector<char> is_reached(around.values.size());
+        for (const unsigned int column : constrained_.column)
+          is_reached[column] = 1;
+        std::vector<double> low(n_components_, infinity), high(n_components_, -infinity);
+        for (std::size_t k = 0; k < around.values.size(); ++k)
+          if (is_reached[k] != 0)
+          {
+            const unsigned int c = k % n_components_;
+            const Point<3> &x = cells_->nodes[cells_->n_free + k / n_components_];
+            around.values[k] = problem.constraint.value(x, c);
+            low[c] = std::min(low[c], around.values[k]);
+            high[c] = std::max(high[c], around.values[k]);
+          }
+        for (unsigned int c = 0; c < n_components_; ++c)
+          around.middle.push_back(low[c] <= high[c] ? low[c] + (high[c] - low[c]) / 2 : 0);
+        for (std::size_t k = 0; k < around.values.size(); ++k)
+          if (is_reached[k] != 0)
+            around.values[k] -= around.middle[k % n_components_];
+        return around;
+      }
+
+      method::FieldInSpace field(const Vector &u, const std::vector<double> &middle) const
       {
         const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
         method::FieldInSpace result;
         result.nodes.assign(cells_->nodes.begin(), cells_->nodes.begin() + n);
         result.volumes.assign(cells_->area.begin(), cells_->area.begin() + n);
         result.nodal.assign(u.begin(), u.end());
+        for (std::size_t k = 0; k < result.nodal.size(); ++k)
+          result.nodal[k] += middle[k % n_components_];
         const auto field =
             std::make_shared<const NodalFieldInSpace>(cells_, result.nodal, n_components_);
         result.averages = field->averages(lattice_);

@@ -12,8 +12,8 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None
     rule    a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...)
     kernel  a space.Kernel
     h       spacing of a lattice; with nodes the side of cubes that fill the box [length]
-    nodes   shape (n, 3) [length], in the box (free) and within a horizon around it
-    volumes of the nodes' cells, shape (n,) [length^3]; default: those of their Voronoi cells
+    nodes   shape (n, 3) [length], free in the box, constrained in a layer at least a horizon wide
+    volumes  volumes of the nodes' cells, shape (n,) [length^3]; default: those of their Voronoi cells
     box     the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of boxes; exclude is taken out of it
 
     Returns Weights: w of shape (n_bonds,) [length^3], points and xi of shape (n_bonds, 3) [length],
@@ -22,12 +22,12 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None
     """
     if nodes is not None:
         if box is None:
-            raise _core.InputError("weights: nodes need box, the domain whose nodes are free, e.g. "
+            raise _core.InputError("weights: nodes require box, the domain in which nodes are free, e.g. "
                                    "box=((0, 0, 0), (1, 1, 1))")
         made = _core.node_weights_in_space(rule, kernel, nodes, volumes, box, exclude, h)
         return Weights(made["i"], made["j"], made["w"], made["points"], made["xi"], made["area"])
     if volumes is not None or box is not None or exclude is not None:
-        raise _core.InputError("weights: volumes, box and exclude are for nodes; give those, too")
+        raise _core.InputError("weights: volumes, box and exclude apply to scattered nodes only; give nodes as well, or omit them")
     made = _core.lattice_weights(rule, kernel, h)
     return Weights(None, None, made["w"], made["points"], made["xi"], made["area"], made["offsets"])
 

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -37,19 +39,38 @@ namespace
                    : std::accumulate(middle, cells.area.end(), 0.);
   }
 
-  double volume(const CubeLattice &omega, int n_layers)
+  /// Half a spacing beyond the last node on each side.
+  Cuboid layer(const NodeCells<3> &cells, const CubeLattice &omega)
   {
-    double n = 1;
-    for (const int along : omega.n_cells())
-      n *= along + 2. * n_layers;
-    return n * std::pow(omega.h(), 3);
+    const double half =
+        .5 * omega.h() *
+        std::cbrt(static_cast<double>(omega.size()) / static_cast<double>(cells.n_free));
+    Cuboid box = omega.cuboid();
+    for (const dealii::Point<3> &x : cells.nodes)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        box.lower[d] = std::min(box.lower[d], x[d]);
+        box.upper[d] = std::max(box.upper[d], x[d]);
+      }
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      box.lower[d] -= half;
+      box.upper[d] += half;
+    }
+    return box;
+  }
+
+  double volume(const Cuboid &box)
+  {
+    const auto sides = box.upper - box.lower;
+    return sides[0] * sides[1] * sides[2];
   }
 
   std::string refusal(const std::vector<dealii::Point<3>> &nodes)
   {
     try
     {
-      (void)voronoi_cells(nodes, box(), 2);
+      (void)voronoi_cells(nodes, box(), .2);
     }
     catch (const InputError &error)
     {
@@ -63,7 +84,7 @@ TEST(VoronoiCellsInSpace, of_centres_are_the_cubes)
 {
   for (const CubeLattice &omega : {box(), solid()})
   {
-    const NodeCells<3> cells = voronoi_cells(lattice_nodes(omega, 2, 0, 1), omega, 2);
+    const NodeCells<3> cells = voronoi_cells(lattice_nodes(omega, 2, 0, 1), omega, .125);
     EXPECT_EQ(cells.n_free, omega.size());
     ASSERT_EQ(cells.pieces.size(), cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -80,11 +101,12 @@ TEST(VoronoiCellsInSpace, tile_the_domain_and_the_layer)
   for (const CubeLattice &omega : {box(), solid()})
     for (const double perturbation : {.1, .3, .49})
     {
-      const NodeCells<3> cells = voronoi_cells(lattice_nodes(omega, 3, perturbation, 7), omega, 3);
+      const NodeCells<3> cells =
+          voronoi_cells(lattice_nodes(omega, 3, perturbation, 7), omega, .25);
       const double inside = static_cast<double>(omega.size()) * std::pow(.125, 3);
       EXPECT_EQ(cells.n_free, omega.size()) << perturbation;
       EXPECT_NEAR(total(cells, true), inside, 1e-12);
-      EXPECT_NEAR(total(cells, false), volume(omega, 3) - inside, 1e-12);
+      EXPECT_NEAR(total(cells, false), volume(layer(cells, omega)) - inside, 1e-12);
       for (std::size_t i = 0; i < cells.size(); ++i)
         ASSERT_GT(cells.area[i], 0);
     }
@@ -94,7 +116,7 @@ TEST(VoronoiCellsInSpace, tile_the_domain_and_the_layer)
 TEST(VoronoiCellsInSpace, hold_the_points_nearest_to_their_nodes)
 {
   const CubeLattice omega = solid();
-  const NodeCells<3> cells = voronoi_cells(lattice_nodes(omega, 1, .45, 3), omega, 1);
+  const NodeCells<3> cells = voronoi_cells(lattice_nodes(omega, 1, .45, 3), omega, 0);
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const bool is_free = i < cells.n_free;
@@ -117,16 +139,17 @@ TEST(VoronoiCellsInSpace, may_have_faces_of_any_width)
 {
   for (double off = 1e-2; off > 1e-16; off /= 10)
   {
-    const NodeCells<3> cells = voronoi_cells(lattice_nodes(box(), 2, off, 5), box(), 2);
+    const NodeCells<3> cells = voronoi_cells(lattice_nodes(box(), 2, off, 5), box(), .125);
     EXPECT_NEAR(total(cells, true), 1, 1e-9) << off;
-    EXPECT_NEAR(total(cells, false), volume(box(), 2) - 1, 1e-9) << off;
+    const Cuboid frame = layer(cells, box());
+    EXPECT_NEAR(total(cells, false), volume(frame) - 1, 1e-9) << off;
     const SolidBall ball{cells.nodes[100], .4};
     double sum = 0;
     for (const ConvexPolyhedron &piece : cells.pieces)
       sum += intersect(ball, piece, 0).volume;
     double beyond = 0; // what the layer does not hold of the ball
     for (unsigned int d = 0; d < 3; ++d)
-      for (const double gap : {ball.centre[d] + .25, 1.25 - ball.centre[d]})
+      for (const double gap : {ball.centre[d] - frame.lower[d], frame.upper[d] - ball.centre[d]})
         if (const double height = ball.radius - gap; height > 0)
           beyond += M_PI * height * height * (3 * ball.radius - height) / 3;
     EXPECT_NEAR(sum + beyond, 4 * M_PI / 3 * std::pow(ball.radius, 3), 1e-9) << off;
@@ -137,27 +160,71 @@ TEST(VoronoiCellsInSpace, keep_the_order_of_nodes_and_free_ones_first)
 {
   const std::vector<dealii::Point<3>> nodes = {
       {-.1, .5, .5}, {.5, .5, .5}, {1.2, .3, .4}, {0, .2, .2}, {.9, .9, .1}};
-  const NodeCells<3> cells = voronoi_cells(nodes, box(), 2);
+  const CubeLattice omega({{unit}, {}}, .5);
+  const NodeCells<3> cells = voronoi_cells(nodes, omega, .2);
   EXPECT_EQ(cells.n_free, 3u); // one of them on the boundary
   EXPECT_EQ(cells.source, (std::vector<std::size_t>{1, 3, 4, 0, 2}));
   EXPECT_NEAR(total(cells, true), 1, 1e-12);
-  EXPECT_NEAR(total(cells, false), volume(box(), 2) - 1, 1e-12);
+  EXPECT_NEAR(total(cells, false), volume(layer(cells, omega)) - 1, 1e-12);
+}
+
+// What is farther than bonds can be has no part in the layer, however far it is.
+TEST(VoronoiCellsInSpace, leave_out_nodes_beyond_the_interaction_domain)
+{
+  std::vector<dealii::Point<3>> nodes = lattice_nodes(box(), 2, .2, 1);
+  const NodeCells<3> cells = voronoi_cells(nodes, box(), .2);
+  nodes.insert(nodes.begin(), {1e9, 0, 0});
+  nodes.emplace_back(.5, .5, 1.7);
+  const NodeCells<3> more = voronoi_cells(nodes, box(), .2);
+  EXPECT_EQ(more.size(), cells.size());
+  EXPECT_EQ(more.source.front(), cells.source.front() + 1);
+  EXPECT_EQ(more.area, cells.area);
 }
 
 TEST(VoronoiCellsInSpace, refuse_nodes_that_cannot_be_used)
 {
-  std::vector<dealii::Point<3>> nodes = lattice_nodes(box(), 2, .2, 1);
+  const std::vector<dealii::Point<3>> nodes = lattice_nodes(box(), 2, .2, 1);
   EXPECT_EQ(refusal(nodes), "");
+  const auto expect = [](const std::vector<dealii::Point<3>> &of, const std::string &part)
+  { EXPECT_NE(refusal(of).find(part), std::string::npos) << part << " | " << refusal(of); };
   const auto with = [&](const dealii::Point<3> &x)
   {
     auto more = nodes;
     more.push_back(x);
-    return refusal(more);
+    return more;
   };
-  EXPECT_NE(with(nodes[40]).find("lies where node 40 is"), std::string::npos) << with(nodes[40]);
-  EXPECT_NE(with({0, 0, 1.3}).find("outside of the domain"), std::string::npos);
-  EXPECT_NE(with({0, 0, std::numeric_limits<double>::quiet_NaN()}).find("not finite"),
-            std::string::npos);
-  EXPECT_NE(refusal({{.5, .5, .5}}).find("lies in the interaction domain"), std::string::npos);
-  EXPECT_NE(refusal({{-.1, .5, .5}}).find("lies in the domain"), std::string::npos);
+  const auto where = [&](const auto &is_kept)
+  {
+    std::vector<dealii::Point<3>> some;
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(some), is_kept);
+    return some;
+  };
+  expect(with(nodes[40]), "lies where node 40 is");
+  expect(with({0, 0, std::numeric_limits<double>::quiet_NaN()}), "not finite");
+  expect(lattice_nodes(box(), 0, .2, 1), "lies in the interaction domain");
+  expect({{-.1, .5, .5}}, "lies in the domain");
+  expect(where([](const auto &x) { return x[1] < 1; }), "nodes end at y");
+  for (const double factor : {1000., 4.}) // few nodes are in the domain then, or none
+  {
+    auto other_unit = nodes;
+    for (auto &x : other_unit)
+      x *= factor;
+    expect(other_unit, "in the same unit?");
+  }
+  // no nodes about one edge
+  expect(where([](const auto &x) { return x[0] < 1 || x[1] < .5; }), "add nodes there");
+}
+
+TEST(VoronoiCellsInSpace, need_nodes_in_cavities)
+{
+  const CubeLattice hollow({{unit}, {{{.25, .25, .25}, {.75, .75, .75}}}}, .125);
+  auto nodes = lattice_nodes(hollow, 2, .2, 1);
+  EXPECT_NO_THROW(voronoi_cells(nodes, hollow, .25));
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                             [&](const dealii::Point<3> &x) {
+                               return x[0] > .25 && x[0] < .75 && x[1] > .25 && x[1] < .75 &&
+                                      x[2] > .25 && x[2] < .75;
+                             }),
+              nodes.end());
+  EXPECT_THROW(voronoi_cells(nodes, hollow, .25), InputError);
 }

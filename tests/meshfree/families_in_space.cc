@@ -25,7 +25,8 @@ namespace
 
   geometry::NodeCells<3> cells_of(double perturbation)
   {
-    return voronoi_cells(lattice_nodes(cube(), n_layers, perturbation, 11), cube(), n_layers);
+    return voronoi_cells(lattice_nodes(cube(), n_layers, perturbation, 11), cube(),
+                         (n_layers - 1) * h);
   }
 
   Families<3> make(const std::string &name, const Kernel<3> &kernel,
