@@ -169,8 +169,10 @@ namespace plumbline::app
         lines.push_back(assumed);
       for (const std::string &line : lines)
         body += report::wrapped(line, report::summary_columns, 2) + '\n';
-      body += "left out in three dimensions: Voronoi cells, the matrix, solutions, maps\n";
-      std::cout << check_summary(body, wrong, wrong.empty() ? "as required" : "NOT as required");
+      body +=
+          "not checked in three dimensions: Voronoi cells, matrix, solutions; no maps are drawn\n";
+      std::cout << check_summary(body, wrong, wrong.empty() ? "as required" : "NOT as required",
+                                 "in check.json (-o FOLDER)");
     }
     if (!options.output.empty())
     {

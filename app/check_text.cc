@@ -98,10 +98,10 @@ namespace plumbline::app
   } // namespace
 
   std::string check_summary(const std::string &body, const std::vector<std::string> &sentences,
-                            const std::string &answer)
+                            const std::string &answer, const std::string &elsewhere)
   {
     constexpr std::size_t most = 15, indent = 2;
-    const std::string where = "lines in the report";
+    const std::string where = "lines " + elsewhere;
     const auto lines_of_each = [&](std::size_t n)
     {
       std::vector<std::string> lines;

@@ -4,13 +4,14 @@
 
 namespace plumbline::app
 {
-  /// A summary of 25 lines of 120 columns at most; where it would be longer, the rest is in the
-  /// report.
+  /// A summary of 25 lines of 120 columns at most.
   /// @param body       lines
   /// @param sentences  after them, at most 15 lines
   /// @param answer     the last line
+  /// @param elsewhere  where what is cut off is found
   std::string check_summary(const std::string &body, const std::vector<std::string> &sentences,
-                            const std::string &answer);
+                            const std::string &answer,
+                            const std::string &elsewhere = "in the report");
 
   /// What is found, for people; the answer last.
   /// @param page  of the report

@@ -153,7 +153,7 @@ namespace plumbline::app
           nodes.places, {options.horizon, options.step.value_or(usual_step * options.horizon),
                          options.all ? nodes.id.size() : options.n_nodes});
       const ForceProgram<dim> program(options.command, nodes, kind);
-      watch_interrupts("\ninterrupted: ending the command\n");
+      watch_interrupts("\ninterrupted: stopping the force program\n");
       ProbeFindings found;
       {
         ProgressLine progress(!options.quiet);

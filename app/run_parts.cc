@@ -66,8 +66,7 @@ namespace plumbline::app
 
   void end_at_interrupts()
   {
-    handle_interrupts("\ninterrupted: no results are written, or not all of them\n",
-                      end_on_interrupt);
+    handle_interrupts("\ninterrupted: results are missing or incomplete\n", end_on_interrupt);
   }
 
   void watch_interrupts(const char *text)

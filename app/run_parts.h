@@ -22,7 +22,7 @@ namespace plumbline::app
   /// @param notice  is written at the first signal, and outlives all of them
   void watch_interrupts(const char *notice =
                             "\ninterrupted: finishing the current solve or time step, then writing "
-                            "what is done; press Ctrl-C again to stop at once\n");
+                            "the results so far; press Ctrl-C again to stop at once\n");
   bool is_interrupted();
 
   /// Says on the terminal where the results of an interrupted command are, which it takes over when

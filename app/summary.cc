@@ -163,7 +163,7 @@ namespace plumbline::app
                 (one->field_estimate > 0
                      ? ", " + base::to_text(one->field_estimate, n_digits) + " (field, L2)"
                      : "") +
-                "; " + std::to_string(one->certified_digits) + " certain digits");
+                "; " + std::to_string(one->certified_digits) + " certified digits");
     }
 
     /// Of the first problems and series.

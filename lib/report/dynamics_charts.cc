@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace plumbline::report
 {
@@ -181,7 +182,18 @@ namespace plumbline::report
             std::max<unsigned int>(1, static_cast<unsigned int>(line.points.size()) / 8);
     }
 
-    DataChart energies_chart(const Record &run)
+    /// Of a body of thickness 1 in two dimensions, of cross-section 1 in one.
+    std::string energy_label(const study::StudyResults &results)
+    {
+      static const std::map<std::string, std::string> units = {{"1", "force/length"},
+                                                               {"3", "force length"}};
+      const auto dimension = results.facts.find("dimension");
+      const auto unit =
+          dimension == results.facts.end() ? units.end() : units.find(dimension->second);
+      return "energy [" + (unit == units.end() ? "force" : unit->second) + "]";
+    }
+
+    DataChart energies_chart(const Record &run, const std::string &y_label)
     {
       using E = analysis::Energies;
       const std::vector<E> energies = study::energies_of(run);
@@ -192,8 +204,8 @@ namespace plumbline::report
                 "Energies: " + run.key.method + ", " + scheme(run) + ", h = " + rounded(run.key.h),
                 "Of one run, " + step(run) + "; the others are in dynamics.json.");
       chart.plot.is_x_log = false;
-      chart.plot.x_label = "time [time]";
-      chart.plot.y_label = "energy [force length]";
+      chart.plot.x_label = "t [time]";
+      chart.plot.y_label = y_label;
       chart.data.columns = {"t", "kinetic", "bond", "stored", "work", "dissipated"};
       double low = 0, high = 0;
       for (const E &now : energies)
@@ -246,7 +258,7 @@ namespace plumbline::report
     {
       constexpr double floor = 1e-16; // of the largest: below it a logarithm says nothing
       chart.plot.is_x_log = false;
-      chart.plot.x_label = "time [time]";
+      chart.plot.x_label = "t [time]";
       chart.data.columns = {"method", "series", "scheme", "step", "t", "value"};
       Lines lines;
       for (const Record *run : finest(results, all_steps))
@@ -350,7 +362,8 @@ namespace plumbline::report
                                      [](const Record *run)
                                      { return !analysis::scheme(scheme(*run)).is_explicit_euler; });
     if (!shown.empty())
-      add(energies_chart(stable == shown.end() ? *shown.front() : **stable), 2);
+      add(energies_chart(stable == shown.end() ? *shown.front() : **stable, energy_label(results)),
+          2);
     if (results.facts.count("blow-up") > 0)
       add(history_chart(results, stored, true, growth), 2);
     add(history_chart(results, balance, false, imbalances), 2);

@@ -174,7 +174,7 @@ namespace plumbline::report
 
   std::string solution_title(const study::ErrorMap &map)
   {
-    return place(map) + ", h = " + rounded(map.h) + ": the solution by " + map.method;
+    return place(map) + ", h = " + rounded(map.h) + ": solution computed with " + map.method;
   }
 
   std::string solution_script(const study::ErrorMap &map, const std::string &file)

@@ -34,7 +34,7 @@ namespace plumbline::report
   const study::ErrorMap *solution_map(const std::vector<study::ErrorMap> &maps,
                                       const std::vector<MethodName> &methods);
 
-  /// "case1, m = 3, h = 0.05: the solution by Q1".
+  /// "case1, m = 3, h = 0.05: solution computed with Q1".
   std::string solution_title(const study::ErrorMap &map);
 
   /// The commands that draw the solution of a map on a linear scale of colours.

@@ -1,6 +1,7 @@
 #include "report/page_parts.h"
 #include "report/report_parts.h"
 #include "report/tables.h"
+#include "study/model_facts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -72,7 +73,8 @@ namespace plumbline::report::page
     Table constants;
     constants.columns = {"constant", "value"};
     for (const auto &[what, value] : results.facts)
-      constants.rows.push_back({text_cell(what), text_cell(value)});
+      if (!study::is_of_equation(what)) // which is above
+        constants.rows.push_back({text_cell(what), text_cell(value)});
     return {{"constants", table(constants)},
             {"omissions", table(omissions)},
             {"savings", table(saving_table(results))},

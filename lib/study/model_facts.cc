@@ -42,8 +42,9 @@ namespace plumbline::study
         return "on a torus";
       if (!domain.is_free_body)
         return "u = g in the interaction domain";
-      return std::string(domain.is_floating ? "nothing is fixed" : "u = g in the fixed parts") +
-             "; families end at the boundary";
+      return std::string(domain.is_floating ? "unconstrained (rigid-body modes)"
+                                            : "u = g in the constrained parts") +
+             "; families are truncated at the free boundary";
     }
   } // namespace
 
@@ -70,23 +71,23 @@ namespace plumbline::study
       facts["local limit"] = base::word(kernel.limit);
     if (!kernel.coefficient.empty() || !kernel.materials.empty())
       facts["coefficient"] = kernel.symmetrisation == physics::Mean::harmonic
-                                 ? "harmonic mean of both ends"
-                                 : "arithmetic mean of both ends";
+                                 ? "harmonic mean of the coefficient at the two ends of the bond"
+                                 : "arithmetic mean of the coefficient at the two ends of the bond";
     if (model.is_state_based() && !scene.has_dilatation())
       facts["dilatation"] = "none, as lambda = mu";
     if (model.is_state_based() && !scene.material.is_homogeneous)
-      facts["varying constants"] =
-          model.mean() == physics::Mean::harmonic
-              ? "λ and μ are harmonic means of both ends of a bond"
-              : "μ is the arithmetic mean of both ends of a bond, f is taken at the point of θ";
+      facts["varying constants"] = model.mean() == physics::Mean::harmonic
+                                       ? "λ and μ are harmonic means over the two ends of a bond"
+                                       : "μ is the arithmetic mean over the two ends of a bond; f "
+                                         "is evaluated at the same point as θ";
     if (scene.material.boundary_function == scene::BoundaryFunction::smoothstep)
-      facts["boundary function"] =
-          "t²(3 − 2t) with t = min(1, distance to the boundary over the horizon)";
+      facts["boundary function"] = "t²(3 − 2t) with t = min(1, (distance to the boundary)/δ)";
     if (scene.domain.is_damaged())
       facts["broken bonds"] =
-          std::string("bonds across cracks and free surfaces are left out") +
-          (model.is_state_based() ? " and dilatations corrected; surface terms: " +
-                                        base::word(scene.material.surface_terms)
-                                  : "");
+          std::string("bonds that cross a crack or a free surface are broken") +
+          (model.is_state_based()
+               ? ", and the dilatations are corrected for them; surface terms: " +
+                     base::word(scene.material.surface_terms)
+               : "");
   }
 } // namespace plumbline::study

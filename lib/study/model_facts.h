@@ -10,6 +10,6 @@ namespace plumbline::study
   /// The equation that a scene poses, by name: model, dimension, kernel, constraint, and, where
   /// there are some, constants, local limit, coefficient, dilatation, varying constants, boundary
   /// function, broken bonds. Reports write the equation by them.
-  bool is_of_equation(const std::string &fact);
   void add_model_facts(const scene::Scene &scene, std::map<std::string, std::string> &facts);
+  bool is_of_equation(const std::string &fact); ///< one of these names
 } // namespace plumbline::study

@@ -266,8 +266,7 @@ TEST(Command, interrupted_before_its_first_solve_ends_with_a_message)
     waitpid(child, &status, 0);
     close(writing);
     EXPECT_TRUE(WIFSIGNALED(status)) << arguments;
-    expect_found(read(err), "\ninterrupted: no results are written, or not all of them\n",
-                 arguments);
+    expect_found(read(err), "\ninterrupted: results are missing or incomplete\n", arguments);
   }
   fs::remove(pipe);
   fs::remove(err);
@@ -403,7 +402,7 @@ TEST(Command, a_summary_without_advice_ends_in_the_estimated_error)
   std::cout.rdbuf(terminal);
   expect_found(said.str(),
                "Estimated error of Q2, u, m = 3, h = 0.05: 2e-05 (averages, L2), 0.0003 "
-               "(field, L2); 4 certain digits\n");
+               "(field, L2); 4 certified digits\n");
   EXPECT_EQ(said.str().find("0.001 (averages"), std::string::npos);
 }
 

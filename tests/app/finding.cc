@@ -31,7 +31,10 @@ TEST(Finding, describe_searches_names_and_help_and_ranks_names_first)
   EXPECT_EQ(run("describe 'modulus bulk'").out.rfind("Kernel/bulk modulus\n", 0), 0u);
   const std::string some = run("describe 'bulk unobtainium modulus'").out;
   EXPECT_EQ(
-      some.rfind("no key has all of these words; these have 2 of 3\nKernel/bulk modulus\n", 0), 0u)
+      some.rfind(
+          "no key matches all of these words; the following match 2 of 3\nKernel/bulk modulus\n",
+          0),
+      0u)
       << some;
   const Outcome none = run("describe horizn");
   EXPECT_EQ(none.exit_code, 2);

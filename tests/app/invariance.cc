@@ -76,6 +76,12 @@ namespace
     std::map<std::string, std::string> words;
   };
 
+  /// Lines of progress depend on time.
+  std::string without_progress(const std::string &text)
+  {
+    return std::regex_replace(text, std::regex(" *[0-9]+ %  [^\n]*\n"), "");
+  }
+
   /// Words with their numbers left out: those have units, or are times.
   std::string without_numbers(const std::string &text)
   {
@@ -134,7 +140,7 @@ namespace
             of_scene + " " + row.options + " -o " + folder.string());
     EXPECT_EQ(outcome.exit_code, row.exit_code) << outcome.err;
     Answer answer;
-    answer.words["stderr"] = without_numbers(outcome.err);
+    answer.words["stderr"] = without_numbers(without_progress(outcome.err));
     if (row.afterwards != nullptr)
     {
       const Outcome again = run(std::string(row.afterwards) + " " + folder.string());

@@ -44,7 +44,7 @@ TEST(ModelFacts, say_whether_solids_have_dilatations)
 TEST(ModelFacts, name_what_is_fixed_of_a_body_and_the_potential_of_double_wells)
 {
   EXPECT_EQ(facts_of("variational").at("constraint"),
-            "u = g in the fixed parts; families end at the boundary");
+            "u = g in the constrained parts; families are truncated at the free boundary");
   const Facts wells = facts_of("double-well");
   EXPECT_EQ(wells.at("constraint"), "on a torus");
   EXPECT_EQ(wells.at("constants"), "c = 1, beta = 1");
