@@ -145,7 +145,8 @@ namespace plumbline::scene
 
   problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
                                             const Level &level, double t,
-                                            const problem::Field<3> *known_load)
+                                            const problem::Field<3> *known_load,
+                                            const CellsInSpace &same_cells)
   {
     const auto field = [&](const std::string &key, const std::string &text)
     {
@@ -159,7 +160,8 @@ namespace plumbline::scene
                               make_kernel_in_space(scene, level.horizon)};
     given.dilatation = scene.material.model->dilatation_in_space(scene, level.horizon);
     given.settings = method_settings(scene);
-    if (!scene.methods.nodes.are_lattice_centres())
+    given.cells = same_cells;
+    if (!given.cells && !scene.methods.nodes.are_lattice_centres())
       given.cells = std::make_shared<const geometry::NodeCells<3>>(
           make_cells_in_space(scene, level, given.lattice));
     const ProblemSection &section = scene.problem;

@@ -5,12 +5,14 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <memory>
 
 namespace plumbline::scene
 {
   using Problem = problem::Problem<2>;
   using Field = problem::Field<2>;
   using Damage = problem::Damage<2>;
+  using CellsInSpace = std::shared_ptr<const geometry::NodeCells<3>>;
 
   /// @param case_index  into ProblemSection::case_names()
   /// @param t           of a scene that moves: its state at this time, the load being the static
@@ -34,11 +36,13 @@ namespace plumbline::scene
   Case make_case(const Scene &scene, unsigned int case_index, Problem problem);
 
   /// The same in space.
+  /// @param same_cells  those of the same level, or null: they are made where nodes are scattered
   /// @pre scene.domain.is_in_space()
   /// @throws InputError, NumericalError  as problem::complete
   problem::Problem<3> make_problem_in_space(const Scene &scene, unsigned int case_index,
                                             const Level &level, double t = 0,
-                                            const problem::Field<3> *known_load = nullptr);
+                                            const problem::Field<3> *known_load = nullptr,
+                                            const CellsInSpace &same_cells = nullptr);
 
   /// Constants of the material that vary in space, by their keys.
   std::vector<problem::SpatialValue<2>> material_values(const Scene &scene);

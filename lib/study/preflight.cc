@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace plumbline::study
 {
@@ -179,10 +181,14 @@ namespace plumbline::study
     check_analysis(scene, scene::Analysis::statics);
     if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
       check_meshes(scene);
-    const auto check = [&scene](unsigned int c, const problem::Level &level)
+    std::map<std::pair<double, double>, scene::CellsInSpace> cells; // by h and horizon
+    const auto check = [&](unsigned int c, const problem::Level &level)
     {
       if (scene.domain.is_in_space())
-        (void)make_problem_in_space(scene, c, level);
+      {
+        scene::CellsInSpace &known = cells[{level.h, level.horizon}];
+        known = make_problem_in_space(scene, c, level, 0, nullptr, known).cells;
+      }
       else
         check_data(make_problem(at_level(scene, level), c, level));
     };

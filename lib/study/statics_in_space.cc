@@ -256,7 +256,12 @@ namespace plumbline::study
         const auto names = scene_.problem.case_names();
         for (unsigned int c = 0; c < names.size(); ++c)
         {
-          CaseInSpace one{names[c], make_problem_in_space(scene_, c, place_.level()), {}, {}, {}};
+          const scene::CellsInSpace cells = cases.empty() ? nullptr : cases.front().problem.cells;
+          CaseInSpace one{names[c],
+                          make_problem_in_space(scene_, c, place_.level(), 0, nullptr, cells),
+                          {},
+                          {},
+                          {}};
           if (one.problem.solution)
             one.exact = cell_averages(*one.problem.solution, one.problem);
           if (one.problem.local_solution)

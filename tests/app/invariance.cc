@@ -76,12 +76,6 @@ namespace
     std::map<std::string, std::string> words;
   };
 
-  /// Lines of progress depend on time.
-  std::string without_progress(const std::string &text)
-  {
-    return std::regex_replace(text, std::regex(" *[0-9]+ %  [^\n]*\n"), "");
-  }
-
   /// Words with their numbers left out: those have units, or are times.
   std::string without_numbers(const std::string &text)
   {

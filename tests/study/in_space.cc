@@ -1,5 +1,6 @@
 // Static problems in space, from the scene to verdicts: known errors, the limits that theory says,
 // and references with estimates that are bounds.
+#include "analysis/statics.h"
 #include "io/record_journal.h"
 #include "method/box_discretisation.h"
 #include "report/report.h"
@@ -598,4 +599,27 @@ TEST(ScatteredNodesInSpace, take_u_where_bonds_reach_and_do_not_mind_its_size)
                                       {"Methods/names", "IPA-AC-R2"}})));
   ASSERT_EQ(results.records.front().failure, "");
   EXPECT_LT(results.records.front()["nodal Linf | exact"], 1e-9);
+}
+
+TEST(ScatteredNodesInSpace, have_norms_over_the_volumes_of_their_cells)
+{
+  const auto scene = make_scene(with(scattered, {{"Methods/names", "FA"},
+                                                 {"Methods/perturbation", "0.45"},
+                                                 {"Study/h", "1/8"},
+                                                 {"Study/decisive error", "nodal L2 | exact"}}));
+  const auto problem =
+      scene::make_problem_in_space(scene, 0, scene.study.series.front().levels.front());
+  const auto solution = analysis::solve(*find_method(available(), "FA", "Methods/names"), problem);
+  double weighted = 0, volume = 0, alike = 0;
+  for (std::size_t i = 0; i < solution.nodes.size(); ++i)
+  {
+    const double error = solution.nodal[i] - problem.solution->value(solution.nodes[i], 0);
+    weighted += solution.volumes[i] * error * error;
+    alike += error * error / static_cast<double>(solution.nodes.size());
+    volume += solution.volumes[i];
+  }
+  EXPECT_NEAR(volume, 1, 1e-12);
+  const double found = run(scene).records.front()["nodal L2 | exact"];
+  EXPECT_NEAR(found / std::sqrt(weighted), 1, 1e-9);
+  EXPECT_GT(std::abs(std::sqrt(alike) / found - 1), 1e-3); // the cells differ
 }
