@@ -131,31 +131,30 @@ namespace plumbline::geometry
   std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<dim>> &nodes,
                                                        double size)
   {
-    std::vector<std::size_t> order(nodes.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](std::size_t i)
+    std::vector<typename BoxSearch<dim>::Box> places;
+    for (const Point<dim> &x : nodes)
+      places.push_back({x, x});
+    const BoxSearch<dim> search(places);
+    std::vector<unsigned int> near;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-      const Point<dim> &x = nodes[i];
-      return std::make_tuple(x[0], x[1], x[dim - 1], i);
-    };
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
-    for (std::size_t a = 0; a < order.size(); ++a)
-      for (std::size_t b = a + 1; b < order.size(); ++b)
+      typename BoxSearch<dim>::Box around = places[i];
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        const Point<dim> &x = nodes[order[a]], &y = nodes[order[b]];
-        if (!(y[0] - x[0] < too_near * size))
-          break;
-        if (x.distance(y) < too_near * size)
-        {
-          const auto [first, second] = std::minmax(order[a], order[b]);
-          return CoincidentNodes{first, second, x.distance(y), size};
-        }
+        around.lower[d] -= too_near * size;
+        around.upper[d] += too_near * size;
       }
+      search.find(around, near);
+      for (const unsigned int j : near)
+        if (j < i && nodes[i].distance(nodes[j]) < too_near * size)
+          return CoincidentNodes{j, i, nodes[i].distance(nodes[j]), size};
+    }
     return {};
   }
 
   template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &,
+                                                                double);
+  template std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<3>> &,
                                                                 double);
 
   std::optional<CoincidentNodes> find_coincident_nodes(const std::vector<Point<2>> &nodes,

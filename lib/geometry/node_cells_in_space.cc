@@ -80,13 +80,8 @@ namespace plumbline::geometry
       return boxes;
     }
 
-    /// A box in units of the lattice's cubes, about the lower corner of Ω's bounding box.
-    struct Range
-    {
-      Place lower, upper;
-    };
-
-    /// How Ω, and a layer around its bounding box, are made up of boxes.
+    /// How Ω, and a layer around its bounding box, are made up of boxes, in units of the lattice's
+    /// cubes about the lower corner of that box.
     class Frame
     {
     public:
@@ -96,7 +91,7 @@ namespace plumbline::geometry
       {
       }
 
-      const Range &layer() const { return layer_; }
+      const Cuboid &layer() const { return layer_; }
 
       /// In cubes, of a place [length].
       Place in_cubes(const Place &x) const { return Place((x - omega_->origin()) / omega_->h()); }
@@ -110,7 +105,7 @@ namespace plumbline::geometry
       }
 
       /// Of Ω, or of the layer.
-      std::vector<Range> boxes(bool of_omega) const
+      std::vector<Cuboid> boxes(bool of_omega) const
       {
         std::array<int, 3> from{}, to{}, n{};
         for (unsigned int d = 0; d < 3; ++d)
@@ -123,10 +118,10 @@ namespace plumbline::geometry
         for_each_index(from, to,
                        [&](const std::array<int, 3> &cell)
                        { is_wanted.push_back(omega_->is_inside(cell) == of_omega ? 1 : 0); });
-        std::vector<Range> result;
+        std::vector<Cuboid> result;
         for (const CubeRange &box : disjoint_boxes(std::move(is_wanted), n))
         {
-          Range range;
+          Cuboid range;
           bool is_there = true;
           for (unsigned int d = 0; d < 3; ++d)
           {
@@ -142,11 +137,11 @@ namespace plumbline::geometry
 
     private:
       const CubeLattice *omega_;
-      Range layer_;
+      Cuboid layer_;
     };
 
     /// The part of a cell about a node in a box; false: there is none.
-    bool clip(ClippedPolyhedron &cell, const Place &node, const Range &range)
+    bool clip(ClippedPolyhedron &cell, const Place &node, const Cuboid &range)
     {
       for (unsigned int d = 0; d < 3; ++d)
       {
@@ -172,7 +167,7 @@ namespace plumbline::geometry
           }
       }
 
-      bool is_in(const Range &range) const
+      bool is_in(const Cuboid &range) const
       {
         bool is = true;
         for (unsigned int d = 0; d < 3; ++d)
@@ -185,9 +180,7 @@ namespace plumbline::geometry
     class Boxes
     {
     public:
-      explicit Boxes(std::vector<Range> boxes) : boxes_(std::move(boxes)), search_(cuboids(boxes_))
-      {
-      }
+      explicit Boxes(std::vector<Cuboid> boxes) : search_(std::move(boxes)) {}
 
       /// What of a Voronoi cell about a node is in one of them.
       std::vector<ConvexPolyhedron> pieces_of(const ClippedPolyhedron &whole, const Place &node,
@@ -202,12 +195,12 @@ namespace plumbline::geometry
         std::vector<unsigned int> near;
         search_.find(extent, near);
         if (std::any_of(near.begin(), near.end(),
-                        [&](unsigned int box) { return extent.is_in(boxes_[box]); }))
+                        [&](unsigned int box) { return extent.is_in(search_.box(box)); }))
           return {placed(whole)};
         std::vector<ConvexPolyhedron> pieces;
         double covered = 0;
         for (const unsigned int box : near)
-          if (ClippedPolyhedron part = whole; clip(part, node, boxes_[box]))
+          if (ClippedPolyhedron part = whole; clip(part, node, search_.box(box)))
             if (const double volume = part.volume(); volume > sliver)
             {
               covered += volume;
@@ -219,15 +212,6 @@ namespace plumbline::geometry
       }
 
     private:
-      static std::vector<Cuboid> cuboids(const std::vector<Range> &boxes)
-      {
-        std::vector<Cuboid> result;
-        for (const Range &box : boxes)
-          result.push_back({box.lower, box.upper});
-        return result;
-      }
-
-      std::vector<Range> boxes_;
       BoxSearch<3> search_;
     };
 
@@ -303,7 +287,8 @@ namespace plumbline::geometry
         }
         catch (const std::runtime_error &error)
         {
-          reject(result.source[i], result.nodes[i], std::string(": ") + error.what());
+          reject(result.source[i], result.nodes[i],
+                 std::string("cannot have a Voronoi cell: ") + error.what());
         }
         if (pieces.empty())
           reject(result.source[i], result.nodes[i],
@@ -392,32 +377,6 @@ namespace plumbline::geometry
               reject(cells.source[i], cells.nodes[i], why.str());
             }
     }
-
-    void check_coincident(const std::vector<Place> &nodes, double size)
-    {
-      constexpr double too_near = 1e-12;
-      std::vector<Cuboid> points;
-      for (const Place &x : nodes)
-        points.push_back({x, x});
-      const BoxSearch<3> search(points);
-      std::vector<unsigned int> near;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-      {
-        Cuboid around{nodes[i], nodes[i]};
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          around.lower[d] -= too_near * size;
-          around.upper[d] += too_near * size;
-        }
-        search.find(around, near);
-        for (const unsigned int j : near)
-          if (j < i)
-            reject(i, nodes[i],
-                   CoincidentNodes{j, i, nodes[i].distance(nodes[j]), size}.place(
-                       "node " + std::to_string(j)) +
-                       "; take one of them out");
-      }
-    }
   } // namespace
 
   NodeCells<3> voronoi_cells(const std::vector<Place> &nodes, const CubeLattice &omega,
@@ -456,7 +415,9 @@ namespace plumbline::geometry
                        "interaction domain; add nodes there, they carry the prescribed values");
     for (const std::size_t i : result.source)
       result.nodes.push_back(nodes[i]);
-    check_coincident(nodes, spacing);
+    if (const auto two = find_coincident_nodes(nodes, spacing))
+      reject(two->second, nodes[two->second],
+             two->place("node " + std::to_string(two->first)) + "; take one of them out");
 
     const Frame frame(omega, layer_of(kept, omega.cuboid(), horizon, spacing));
     result.first_piece = {0};

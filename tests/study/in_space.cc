@@ -495,7 +495,10 @@ TEST(ScatteredNodesInSpace, keep_the_local_limit_by_rules_with_exact_moments)
     { return records[method].back()[error] / records[method][2][error]; };
     EXPECT_LT(last("IPA-AC-R2"), .5) << error; // of second order: .44
     EXPECT_GT(last("IPA-AC"), .6) << error;
-    EXPECT_GT(records["IPA-AC"].back()[error], 4 * records["IPA-AC-R2"].back()[error]) << error;
+    // averages of both have the error of values at centres
+    const double factor = error == "nodal L2 | exact" ? 20 : 4;
+    EXPECT_GT(records["IPA-AC"].back()[error], factor * records["IPA-AC-R2"].back()[error])
+        << error;
   }
   EXPECT_LT(records["IPA-AC-R2"].back()["moment defect"], 1e-10);
   EXPECT_GT(records["FA"].back()["moment defect"], .1);
