@@ -1,10 +1,10 @@
 #include "algebra/spectrum.h"
 #include "algebra/sparse.h"
 #include "base/error.h"
+#include "base/symmetric_eigen.h"
 
 #include <deal.II/lac/vector.h>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -223,7 +223,7 @@ TEST(Assembly, has_the_eigenvalues_of_the_operator_on_every_road)
   for (Eigen::Index i = 0; i < n; ++i)
     for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
       dense(i, rows.column[k]) = rows.value[k];
-  const Eigen::VectorXd exact = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+  const Eigen::VectorXd exact = base::symmetric_eigen(dense).values;
 
   const auto positions = free_positions(nodes);
   for (const OperatorBackend backend :

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <sys/stat.h>
+#include <thread>
 
 namespace
 {
@@ -53,7 +54,7 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
   EXPECT_EQ(without_progress(outcome.err), "");
   expect_found(outcome.out, "wave, nodal Linf | exact: AC; ");
   expect_found(outcome.out, "\nas required\n");
-  const auto json = nlohmann::json::parse(read(out / "check.json"));
+  const auto json = read_json(out / "check.json");
   ASSERT_EQ(json["levels"].size(), sizes_.size());
   EXPECT_EQ(json["complaints"].size(), 0u);
   for (const auto &level : json["levels"])
@@ -125,8 +126,8 @@ TEST_F(CheckSeries, says_that_errors_stall)
   // where moments may be off by so much, the errors still stall
   const Outcome loose = check_all("--json --require moments=0.2");
   EXPECT_EQ(loose.exit_code, 0) << loose.out;
-  EXPECT_EQ(nlohmann::json::parse(loose.out)["complaints"].size(), 0u);
-  const auto json = nlohmann::json::parse(check_all("--json").out);
+  EXPECT_EQ(parse_json(loose.out)["complaints"].size(), 0u);
+  const auto json = parse_json(check_all("--json").out);
   EXPECT_EQ(json["complaints"].size(), sizes_.size() + 1);
   expect_found(json["complaints"].back(), "required ac: wave, nodal Linf | exact: ");
 }
@@ -170,7 +171,7 @@ TEST(Check, takes_stiffnesses_and_force_constants)
             check(files.nodes, files.bonds,
                   "--set Kernel/type=constant --require moments=0.3 --json --bonds-are " + kind);
         EXPECT_EQ(right.exit_code, 0) << rule << perturbation << kind << right.out << right.err;
-        const auto json = nlohmann::json::parse(right.out);
+        const auto json = parse_json(right.out);
         EXPECT_EQ(json["rule"]["name"], rule) << perturbation << kind;
         if (are_forces) // which are of the size of weights here: 4 / (81 pi h^2) times them
           continue;

@@ -105,7 +105,7 @@ TEST(Command, takes_names_of_methods_in_any_case)
           "'Expected/verdicts=ipa-ac-R2: undecided' --set Reference/method=q2 --json -o " +
           out.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(outcome.out);
+  const auto json = parse_json(outcome.out);
   std::vector<std::string> names;
   for (const auto &record : json["records"])
     names.push_back(record["key"]["method"]);
@@ -119,8 +119,8 @@ TEST(Command, takes_names_of_methods_in_any_case)
           "Expected/verdicts= --set Reference/method=q1 --set Reference/estimate=every --json -o " +
           out.string());
   EXPECT_EQ(twice.exit_code, 0) << twice.err;
-  EXPECT_EQ(nlohmann::json::parse(twice.out)["references"].size(), 1u);
-  EXPECT_EQ(nlohmann::json::parse(twice.out)["estimates"].size(), 0u);
+  EXPECT_EQ(parse_json(twice.out)["references"].size(), 1u);
+  EXPECT_EQ(parse_json(twice.out)["estimates"].size(), 0u);
 }
 
 TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
@@ -284,7 +284,7 @@ TEST(Command, prints_the_micromodulus_that_follows_from_E)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string name = "micromodulus c, C = c ρ(|ξ|/δ) ξ⊗ξ/|ξ|²";
   expect_found(outcome.out, "\n" + name + ": ");
-  const auto json = nlohmann::json::parse(read(folder / "results.json"));
+  const auto json = read_json(folder / "results.json");
   const std::string value = json.at("facts").at(name);
   const double c = 72 * 2 / (5 * M_PI * std::pow(.3, 4));
   EXPECT_NEAR(std::stod(value), c, 1e-5 * c);

@@ -21,7 +21,7 @@ namespace
 
   nlohmann::json records(const fs::path &folder)
   {
-    return nlohmann::json::parse(read(folder / "crack.json"))["records"];
+    return read_json(folder / "crack.json")["records"];
   }
 
   double scalar(const nlohmann::json &record, const std::string &name)

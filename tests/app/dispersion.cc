@@ -28,7 +28,7 @@ TEST(DispersionCommand, says_by_waves_what_is_proven_by_moments)
     const Outcome outcome =
         run("dispersion " + scene(name) + " --json --set Study/m=3 -o " + folder.string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto json = nlohmann::json::parse(outcome.out);
+    const auto json = parse_json(outcome.out);
     std::size_t n = 0;
     for (const auto &trend : json["trends"])
     {
@@ -58,7 +58,7 @@ TEST(DispersionCommand, writes_a_page_with_tables_and_charts)
   expect_found(read(folder / "dispersion.md"), "30°");
   EXPECT_TRUE(fs::exists(folder / "dispersion/phase_delta-0.2_waves-at-30.svg"));
   EXPECT_TRUE(fs::exists(folder / "dispersion/errors_delta-0.2.csv"));
-  EXPECT_EQ(nlohmann::json::parse(read(folder / "dispersion.json"))["records"].size(), 6u);
+  EXPECT_EQ(read_json(folder / "dispersion.json")["records"].size(), 6u);
 }
 
 TEST(DispersionCommand, takes_directions_however_they_are_separated)
@@ -69,7 +69,7 @@ TEST(DispersionCommand, takes_directions_however_they_are_separated)
         run("dispersion " + scene("diffusion") + " --methods FA --levels 1 --threads 1 --json -o " +
             temporary("dispersion").string() + " " + arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments << ": " << outcome.err;
-    return nlohmann::json::parse(outcome.out)["facts"]["directions"].get<std::string>();
+    return parse_json(outcome.out)["facts"]["directions"].get<std::string>();
   };
   const std::string expected = "0°, -30.5°, 45°";
   for (const std::string text :
@@ -119,7 +119,7 @@ TEST(DispersionCommand, interrupted_keeps_what_is_finished)
   ASSERT_EQ(interrupt_at("dispersion " + scene("diffusion") + " --quiet -o " + folder.string(),
                          folder / "dispersion.jsonl"),
             130);
-  const auto json = nlohmann::json::parse(read(folder / "dispersion.json"));
+  const auto json = read_json(folder / "dispersion.json");
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_GE(json["records"].size(), 1u);
   EXPECT_TRUE(fs::exists(folder / "dispersion.jsonl")); // the same command goes on from it
@@ -144,7 +144,7 @@ TEST(DispersionCommand, says_by_waves_in_space_what_is_proven_by_moments)
   const fs::path folder = temporary("dispersion");
   const Outcome outcome = run("dispersion " + in_space + " --json -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(outcome.out);
+  const auto json = parse_json(outcome.out);
   EXPECT_EQ(json["facts"]["directions"], "(1, 0, 0), (1, 1, 0), (1, 1, 1)");
   std::size_t n = 0;
   for (const auto &trend : json["trends"])
@@ -167,7 +167,7 @@ TEST(DispersionCommand, takes_vectors_as_directions_in_space)
   const Outcome outcome = run("dispersion --directions 0,0,1 1 1 -1 " + in_space +
                               " --methods FA --levels 1 --threads 1 --json -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(nlohmann::json::parse(outcome.out)["facts"]["directions"], "(0, 0, 1), (1, 1, -1)");
+  EXPECT_EQ(parse_json(outcome.out)["facts"]["directions"], "(0, 0, 1), (1, 1, -1)");
   expect_no_waves(in_space + " --directions 1,0", "--directions has 2 numbers; give three");
   expect_no_waves(in_space + " --directions 0,0,0", "(0, 0, 0) is not a direction");
   expect_no_waves(in_space + " --angles 45", "--angles is for two dimensions");

@@ -41,7 +41,7 @@ TEST(DynamicsCommand, writes_a_page_its_numbers_and_frames)
   expect_found(read(folder / "dynamics.md"), "velocity Verlet");
   EXPECT_FALSE(fs::exists(folder / "dynamics.jsonl"));
 
-  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  const auto json = read_json(folder / "dynamics.json");
   ASSERT_EQ(json["records"].size(), 4u);
   const auto &first = json["records"][0], &implicit = json["records"][3];
   EXPECT_EQ(first["key"]["variant"], "velocity Verlet, dt = 0.05");
@@ -83,7 +83,7 @@ TEST(DynamicsCommand, interrupted_keeps_what_is_finished)
       interrupt_at("run " + schemes + " " + settings + "--quiet -o " + folder.string(),
                    folder / "dynamics.jsonl");
   EXPECT_EQ(exit_code, 130);
-  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  const auto json = read_json(folder / "dynamics.json");
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_GE(json["records"].size(), 1u);
   EXPECT_LT(json["records"].size(), 4u);
@@ -95,7 +95,7 @@ namespace
   /// All numbers of dynamics.json but CPU seconds.
   nlohmann::json untimed(const fs::path &folder)
   {
-    auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+    auto json = read_json(folder / "dynamics.json");
     json.erase("provenance");
     for (auto &record : json["records"])
     {
@@ -163,7 +163,7 @@ TEST(DynamicsCommand, warns_of_critical_steps_of_operators_that_are_not_symmetri
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.err, "warning: IPA-AC-R2: the operator is not symmetric");
   expect_found(read(folder / "dynamics.html"), "that of the symmetric part");
-  const auto json = nlohmann::json::parse(read(folder / "dynamics.json"));
+  const auto json = read_json(folder / "dynamics.json");
   EXPECT_EQ(json["warnings"].size(), 1u);
   EXPECT_EQ(json["records"][0]["scalars"]["symmetric"]["value"], 0);
 }

@@ -45,7 +45,7 @@ TEST(Output, that_a_full_disk_swallows_is_no_success)
                  "was printed is not whole; free some space, or send it elsewhere",
                  command);
   }
-  EXPECT_NO_THROW(std::ignore = nlohmann::json::parse(read(folder / "results.json")));
+  EXPECT_NO_THROW(std::ignore = read_json(folder / "results.json"));
   expect_found(read(folder / "report.html"), "</html>");
   fs::remove_all(folder);
 }
@@ -64,7 +64,7 @@ TEST(Output, files_that_are_not_whole_are_named_and_results_and_page_stay)
     expect_found(outcome.err, "output file '" + (folder / name).string() +
                                   "' cannot be written (No space left on device); free some space");
     EXPECT_FALSE(fs::exists(fs::symlink_status(folder / (name + ".part")))) << name;
-    EXPECT_EQ(nlohmann::json::parse(read(folder / "results.json")).at("records").size(), 6u);
+    EXPECT_EQ(read_json(folder / "results.json").at("records").size(), 6u);
   };
   fill("report.html");
   EXPECT_EQ(read(folder / "report.html"), page);
@@ -84,7 +84,7 @@ TEST(Output, has_the_net_force_of_surface_terms_at_each_level)
                             folder.string();
   const auto last = [&] // columns by name
   {
-    const auto results = nlohmann::json::parse(read(folder / "results.json"));
+    const auto results = read_json(folder / "results.json");
     std::map<std::string, std::vector<double>> columns;
     for (const auto &column : results.at("records").back().at("curves").at("tip forces"))
       columns[column.at("name")] = column.at("values").get<std::vector<double>>();

@@ -48,7 +48,7 @@ TEST(StabilityCommand, interrupted_keeps_what_is_finished)
                              folder.string(),
                          folder / "stability/fa_m-3.vtu"),
             130);
-  const auto json = nlohmann::json::parse(read(folder / "stability.json"));
+  const auto json = read_json(folder / "stability.json");
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_GE(json["records"].size(), 10u);
   EXPECT_EQ(json["verdicts"].size(), 3u);
@@ -63,7 +63,7 @@ TEST(StabilityCommand, leaves_out_what_exceeds_the_budget_and_says_so)
   const Outcome outcome = run(command + " --budget 1e-9");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "left out by the budget: OPT, m = 3, h = ");
-  const auto json = nlohmann::json::parse(read(folder / "stability.json"));
+  const auto json = read_json(folder / "stability.json");
   EXPECT_EQ(json["records"].size(), 1u); // the first level has nothing before it to judge by
   EXPECT_GE(json["left_out"].size(), 1u);
   EXPECT_EQ(run(command + " --budget -1").exit_code, 2);

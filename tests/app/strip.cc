@@ -21,7 +21,7 @@ TEST(StripCommand, charts_a_tip_by_both_sides)
   const Outcome outcome = run("strip " + scene() + " --methods DGQ0,PA-AC -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "W1 (delta = 0.3) of 2 methods: limits between");
-  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  const auto json = read_json(folder / "strip.json");
   ASSERT_EQ(json["records"].size(), 8u);
   EXPECT_NEAR(json["records"][0]["scalars"]["tip energy"]["value"], .67459, 1e-5);
   EXPECT_EQ(json["records"][0]["curves"]["opening"][1]["values"].size(), 24u);
@@ -41,7 +41,7 @@ TEST(StripCommand, interrupted_keeps_what_is_finished)
                              "/fracture/strip_growth_narrow.prm --quiet -o " + folder.string(),
                          folder / ".plumbline"),
             130);
-  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  const auto json = read_json(folder / "strip.json");
   EXPECT_FALSE(json["is_complete"]);
   EXPECT_LT(json["records"].size(), 4u);
   expect_found(read(folder / "strip.html"), "interrupted: what was finished");
@@ -60,7 +60,7 @@ TEST(StripCommand, charts_a_crack_in_its_own_field)
           "/fracture/k_field_strip.prm --methods Q1,OPT --levels 2 -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "G E'/K^2");
-  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  const auto json = read_json(folder / "strip.json");
   EXPECT_EQ(json["facts"]["edges"], "K field");
   EXPECT_NEAR(json["records"][0]["scalars"]["K^2/E'"]["value"], .375, 1e-15); // of mu = 1
   EXPECT_FALSE(json["records"][0]["scalars"].contains("tip energy"));
@@ -79,7 +79,7 @@ TEST(StripCommand, lets_cracks_grow_by_rules)
   const Outcome outcome = run(command + " --methods OPT,DGQ0 -o " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_found(outcome.out, "growth peak");
-  const auto json = nlohmann::json::parse(read(folder / "strip.json"));
+  const auto json = read_json(folder / "strip.json");
   const auto growth = [&](const std::string &what) -> double
   { return json["records"][0]["scalars"]["growth " + what]["value"]; };
   EXPECT_NEAR(growth("peak"), 1.994, .006);  // of a prototype, at a horizon of 1/16

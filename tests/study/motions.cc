@@ -195,7 +195,7 @@ TEST(Motions, of_double_wells_by_galerkin_show_the_orders_of_implicit_schemes)
   {
     const auto results =
         run(torus({{"Methods/names", "Q1"},
-                   {"Study/h", "0.1"},
+                   {"Study/h", "0.2"},
                    {"Reference/method", "none"},
                    {"Study/decisive error", "nodal L2 | exact"},
                    {"Time/initial displacement", "0.2*sin(2*pi*x), 0.1*cos(2*pi*y)"},

@@ -1,14 +1,13 @@
 // Principal components against the singular values of all realisations, covariances and samples.
 #include "uq/principal_components.h"
 #include "base/error.h"
+#include "base/symmetric_eigen.h"
 #include "refusal.h"
 #include "uq/boolean_covariance.h"
 #include "uq/generator.h"
 #include "uq/karhunen_loeve.h"
 
 #include <deal.II/base/multithread_info.h>
-
-#include <Eigen/Dense>
 
 #include <gtest/gtest.h>
 
@@ -67,19 +66,17 @@ namespace
   {
     const MatrixXd all = deviations(rough, n_realisations);
     // squares of singular values; of the first modes they have all digits that are tested
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(MatrixXd(all * all.transpose()));
+    const base::SymmetricEigen squares = base::symmetric_eigen(all * all.transpose());
     const auto pca =
         principal_components(grid, n_realisations, rough, n_modes, PassLimit{1000, 1e-11});
     EXPECT_TRUE(pca.is_settled);
     const Eigen::Index last = all.rows() - 1;
-    const double largest = squares.eigenvalues()[last];
+    const double largest = squares.values[last];
     for (unsigned int k = 0; k < n_modes; ++k)
     {
-      EXPECT_NEAR(pca.expansion.eigenvalue[k], squares.eigenvalues()[last - k], 1e-11 * largest)
-          << k;
+      EXPECT_NEAR(pca.expansion.eigenvalue[k], squares.values[last - k], 1e-11 * largest) << k;
       const Eigen::Map<const Eigen::VectorXd> mode(pca.expansion.mode[k].data(), all.rows());
-      EXPECT_NEAR(std::abs(mode.dot(squares.eigenvectors().col(last - k))) *
-                      std::sqrt(grid.cell_area()),
+      EXPECT_NEAR(std::abs(mode.dot(squares.vectors.col(last - k))) * std::sqrt(grid.cell_area()),
                   1, 1e-8)
           << k;
     }
