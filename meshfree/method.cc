@@ -21,14 +21,14 @@ namespace plumbline::meshfree
                        public method::DynamicFractureSolver
     {
     public:
-      explicit RuleMethod(Rule rule, bool is_counterexample = false)
-          : rule_(std::move(rule)), is_counterexample_(is_counterexample)
+      explicit RuleMethod(Rule rule, bool is_in_all = true)
+          : rule_(std::move(rule)), is_in_all_(is_in_all)
       {
       }
       std::string name() const override { return rule_.name; }
       method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override { return rule_.help; }
-      bool is_in_all() const override { return !is_counterexample_; }
+      bool is_in_all() const override { return is_in_all_; }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
         if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice() ||
@@ -155,7 +155,7 @@ namespace plumbline::meshfree
       }
 
       Rule rule_;
-      bool is_counterexample_;
+      bool is_in_all_;
     };
   } // namespace
 
@@ -169,8 +169,8 @@ namespace plumbline::meshfree
     method::Methods methods;
     for (const Rule &rule : rules())
       methods.push_back(make_method(rule));
-    for (const Rule &rule : counterexamples())
-      methods.push_back(std::make_shared<RuleMethod>(rule, true));
+    for (const Rule &rule : rules_on_request())
+      methods.push_back(std::make_shared<RuleMethod>(rule, false));
     return methods;
   }
 } // namespace plumbline::meshfree

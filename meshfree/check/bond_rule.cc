@@ -100,7 +100,7 @@ namespace plumbline::meshfree
   {
     constexpr double enough = .9;
     std::vector<Rule> candidates = rules();
-    candidates.insert(candidates.end(), counterexamples().begin(), counterexamples().end());
+    candidates.insert(candidates.end(), rules_on_request().begin(), rules_on_request().end());
     std::optional<Recognised> best;
     std::size_t best_score = 0;
     for (const Rule &rule : candidates)

@@ -106,6 +106,18 @@ namespace plumbline::meshfree
       for (e[axis] = order; e[axis] >= 0; --e[axis])
         append_exponents<dim>(e, axis + 1, order - e[axis], result);
     }
+
+    /// The axes of the first two factors of a monomial of degree 2 or more.
+    template <std::size_t dim>
+    std::array<unsigned int, 2> first_two(const std::array<int, dim> &beta)
+    {
+      std::array<unsigned int, 2> axes{};
+      unsigned int n = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (int k = 0; k < beta[d] && n < 2; ++k)
+          axes[n++] = d;
+      return axes;
+    }
   } // namespace
 
   template <int dim>
@@ -128,12 +140,42 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  MomentConditions<dim> kernel_conditions(const Kernel<dim> &kernel, unsigned int degree,
+                                          std::vector<Exponents<dim>> (*select)(int lowest,
+                                                                                int highest))
+  {
+    const bool is_tensor = kernel.n_components() > 1;
+    const double horizon = kernel.horizon();
+    const int raise = is_tensor ? 2 : 0;
+    MomentConditions<dim> conditions{
+        degree, horizon, select(1 + raise, static_cast<int>(degree) + raise), {}, {}, {}};
+    for (const Exponents<dim> &beta : conditions.exponents)
+    {
+      Exponents<dim> alpha = beta;
+      const auto [a, b] = first_two(beta);
+      if (is_tensor)
+      {
+        --alpha[a];
+        --alpha[b];
+      }
+      conditions.moments.push_back((is_tensor ? kernel.moment(alpha, a, b) : kernel.moment(alpha)) /
+                                   std::pow(horizon, order(alpha)));
+    }
+    conditions.factor = [kernel, is_tensor](const Bond<dim> &bond)
+    {
+      const double scale = kernel.horizon() * kernel.horizon() / bond.xi.square();
+      return radial_value(kernel, bond) * (is_tensor ? scale : 1);
+    };
+    conditions.scale = [](const Bond<dim> &bond) { return bond.area; };
+    return conditions;
+  }
+
+  template <int dim>
   void meet(const MomentConditions<dim> &conditions, Family<dim> &family)
   {
     const auto n = static_cast<Index>(family.bonds.size());
     const auto n_conditions = static_cast<Index>(conditions.exponents.size());
-    const int highest =
-        std::accumulate(conditions.exponents.back().begin(), conditions.exponents.back().end(), 0);
+    const int highest = order(conditions.exponents.back());
     // in y = w / √ω the conditions have the columns g s^α √ω, scaled to norm 1
     VectorXd root(n), before(n);
     std::array<MatrixXd, dim> powers;
@@ -175,6 +217,8 @@ namespace plumbline::meshfree
 #define PLUMBLINE_INSTANTIATE(dim)                                                                 \
   template std::vector<Exponents<dim>> exponents<dim>(int, int);                                   \
   template std::vector<Exponents<dim>> even_exponents<dim>(int, int);                              \
+  template MomentConditions<dim> kernel_conditions(const Kernel<dim> &, unsigned int,              \
+                                                   std::vector<Exponents<dim>> (*)(int, int));     \
   template void meet(const MomentConditions<dim> &, Family<dim> &);
   PLUMBLINE_INSTANTIATE(2)
   PLUMBLINE_INSTANTIATE(3)

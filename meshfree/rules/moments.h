@@ -2,11 +2,19 @@
 
 #include "meshfree/rules/quadrature_rule.h"
 
+#include <numeric>
+
 namespace plumbline::meshfree
 {
   /// Exponents of a monomial.
   template <int dim>
   using Exponents = std::array<int, dim>;
+
+  template <std::size_t dim>
+  int order(const std::array<int, dim> &alpha)
+  {
+    return std::accumulate(alpha.begin(), alpha.end(), 0);
+  }
 
   /// All exponents α with lowest <= |α| <= highest.
   template <int dim>
@@ -30,6 +38,15 @@ namespace plumbline::meshfree
     /// Of condition i, multiplies g; empty: 1.
     std::function<double(const Bond<dim> &, std::size_t i)> own_factor = {};
   };
+
+  /// That the operator Σ_j w_j C (u_j - u) has the moments of the continuous one up to a degree.
+  /// Scalar kernels: those of C ξ^α, C taken at the kernel point. Tensors: the entries n_a n_b ξ^α
+  /// are ξ^β / |ξ|², |β| = |α| + 2. The scale is the area of a bond's cell.
+  /// @param select  which exponents of a range of degrees
+  template <int dim>
+  MomentConditions<dim> kernel_conditions(const Kernel<dim> &kernel, unsigned int degree,
+                                          std::vector<Exponents<dim>> (*select)(int lowest,
+                                                                                int highest));
 
   /// Change the weights as little as possible, min Σ (w - w_before)²/ω, so that they meet the
   /// conditions, and say in family.fit how well they do. Rank-revealing: conditions that depend on

@@ -3,65 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace plumbline::meshfree
 {
   namespace
   {
-    template <std::size_t dim>
-    int order(const std::array<int, dim> &alpha)
-    {
-      return std::accumulate(alpha.begin(), alpha.end(), 0);
-    }
-
-    /// The axes of the first two factors of a monomial of degree 2 or more.
-    template <std::size_t dim>
-    std::array<unsigned int, 2> first_two(const std::array<int, dim> &beta)
-    {
-      std::array<unsigned int, 2> axes{};
-      unsigned int n = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (int k = 0; k < beta[d] && n < 2; ++k)
-          axes[n++] = d;
-      return axes;
-    }
-
-    /// Scalar kernels: the moments of C(kernel_point) ξ^α. Tensors: the entries n_a n_b ξ^α are
-    /// ξ^β / |ξ|², |β| = |α| + 2.
-    /// @param select  which exponents of a range of degrees
-    template <int dim>
-    MomentConditions<dim> moment_conditions(const Kernel<dim> &kernel, unsigned int degree,
-                                            std::vector<Exponents<dim>> (*select)(int lowest,
-                                                                                  int highest))
-    {
-      const bool is_tensor = kernel.n_components() > 1;
-      const double horizon = kernel.horizon();
-      const int raise = is_tensor ? 2 : 0;
-      MomentConditions<dim> conditions{
-          degree, horizon, select(1 + raise, static_cast<int>(degree) + raise), {}, {}, {}};
-      for (const Exponents<dim> &beta : conditions.exponents)
-      {
-        Exponents<dim> alpha = beta;
-        const auto [a, b] = first_two(beta);
-        if (is_tensor)
-        {
-          --alpha[a];
-          --alpha[b];
-        }
-        conditions.moments.push_back(
-            (is_tensor ? kernel.moment(alpha, a, b) : kernel.moment(alpha)) /
-            std::pow(horizon, order(alpha)));
-      }
-      conditions.factor = [kernel, is_tensor](const Bond<dim> &bond)
-      {
-        const double scale = kernel.horizon() * kernel.horizon() / bond.xi.square();
-        return radial_value(kernel, bond) * (is_tensor ? scale : 1);
-      };
-      conditions.scale = [](const Bond<dim> &bond) { return bond.area; };
-      return conditions;
-    }
-
     /// The moments of C_ab ξ^α up to a degree, C taken at the kernel point, ξ to the node.
     /// @param is_even  those that symmetry does not meet
     template <int dim>
@@ -102,8 +48,8 @@ namespace plumbline::meshfree
   NeighbourhoodQuadrature<dim> recalibrated(const Kernel<dim> &kernel, unsigned int degree)
   {
     // on a lattice symmetry meets the odd moments, which need not be independent there
-    const auto even = moment_conditions(kernel, degree, even_exponents<dim>),
-               all = moment_conditions(kernel, degree, exponents<dim>);
+    const auto even = kernel_conditions(kernel, degree, even_exponents<dim>),
+               all = kernel_conditions(kernel, degree, exponents<dim>);
     return {kernel.n_components() > 1 ? partial_area_bond<dim> : centroid_bond<dim>,
             [even, all](Family<dim> &family)
             { meet(family.neighbours.empty() ? even : all, family); }};

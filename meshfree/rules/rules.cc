@@ -35,9 +35,12 @@ namespace plumbline::meshfree
     return table;
   }
 
-  const std::vector<Rule> &counterexamples()
+  const std::vector<Rule> &rules_on_request()
   {
     static const std::vector<Rule> table = {
+        {"PDDO",
+         "peridynamic differential operator: exact moments of degree 2, any kernel's profile",
+         differential_operator<2>, differential_operator<3>},
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };
@@ -48,7 +51,7 @@ namespace plumbline::meshfree
   {
     std::vector<std::string> known;
     std::string list;
-    for (const std::vector<Rule> *table : {&rules(), &counterexamples()})
+    for (const std::vector<Rule> *table : {&rules(), &rules_on_request()})
       for (const Rule &rule : *table)
       {
         if (base::to_lower(rule.name) == base::to_lower(name))

@@ -60,6 +60,15 @@ namespace plumbline::meshfree
   template <int dim>
   NeighbourhoodQuadrature<dim> optimisation_based(const Kernel<dim> &kernel);
 
+  /// Weights of the peridynamic differential operator (PDDO): coefficients w C of bonds that are
+  /// the cell's area times exp(-(2r/δ)²) times a polynomial, with exact moments up to degree 2, odd
+  /// ones too on scattered nodes; they do not depend on the kernel but by its second moments.
+  /// Asymptotically compatible; wrong at a fixed horizon, where the kernel's profile matters.
+  /// Kernel at the node. Infeasible, a NumericalError, as above.
+  /// Source: Madenci, Barut & Futch 2016, doi:10.1016/j.cma.2016.02.028.
+  template <int dim>
+  NeighbourhoodQuadrature<dim> differential_operator(const Kernel<dim> &kernel);
+
   /// A row of the table of rules.
   struct Rule
   {
@@ -71,10 +80,11 @@ namespace plumbline::meshfree
   /// All rules; a new one is one source file and one row here.
   const std::vector<Rule> &rules();
 
-  /// Rules that are there to show how they fail; `all` does not take them.
-  const std::vector<Rule> &counterexamples();
+  /// Rules that `all` does not take: of another kernel at fixed horizons, or there to show how they
+  /// fail.
+  const std::vector<Rule> &rules_on_request();
 
-  /// The rule or counterexample of a name, in any case.
+  /// The rule of a name, in any case.
   /// @throws InputError  there is none; it begins with the key and names those that are there
   const Rule &find_rule(const std::string &name, const std::string &key);
 } // namespace plumbline::meshfree

@@ -243,6 +243,41 @@ TEST(OptimisationBased, loses_rank_below_2_24_and_is_infeasible_at_1_5)
   }
 }
 
+// By symmetry the polynomial is a multiple of |ξ|², which the second moment settles.
+TEST(DifferentialOperator, has_its_closed_form_on_lattices_whatever_the_profile_is)
+{
+  for (const std::string type : {"constant", "linear-decay", "1/r"})
+    for (const double m : {2., 3., 4.7})
+    {
+      const auto kernel = scalar_kernel<2>(m, type);
+      const auto bonds = make(differential_operator(kernel), kernel);
+      const auto shape = [&](const Bond<2> &bond)
+      {
+        const double s = 2 * bond.xi.norm() / kernel.horizon();
+        return std::exp(-s * s) * bond.xi.square();
+      };
+      double sum = 0;
+      for (const Bond<2> &bond : bonds.family)
+        sum += shape(bond) * bond.xi[0] * bond.xi[0];
+      for (const Bond<2> &bond : bonds.family)
+      {
+        const double expected = kernel.moment({2, 0}) * shape(bond) / sum;
+        EXPECT_NEAR(kernel_value(kernel, bond, 0, 0) * bond.weight, expected, 1e-12 * expected)
+            << type << ", " << m;
+      }
+    }
+}
+
+TEST(DifferentialOperator, has_no_bond_where_the_kernel_vanishes)
+{
+  const auto decay = scalar_kernel<2>(3, "linear-decay"),
+             constant = scalar_kernel<2>(3, "constant");
+  const auto n_bonds = [](const Kernel<2> &kernel)
+  { return make(differential_operator(kernel), kernel).family.size(); };
+  EXPECT_EQ(n_bonds(constant), 28u);
+  EXPECT_EQ(n_bonds(decay), 24u); // four nodes lie on the circle
+}
+
 TEST(FullArea, counts_nodes_on_the_circle_and_jitters_with_the_ratio)
 {
   // (3, 4, 5): 80 nodes of the disc of radius 5, ties included

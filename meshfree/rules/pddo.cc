@@ -1,0 +1,53 @@
+#include "meshfree/rules/moments.h"
+#include "meshfree/rules/rules.h"
+
+#include <cmath>
+
+namespace plumbline::meshfree
+{
+  namespace
+  {
+    /// Where the kernel vanishes no weight has an effect, and there is no bond.
+    template <int dim>
+    Bond<dim> bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
+    {
+      Bond<dim> result = full_area_bond(kernel, candidate);
+      if (result.weight != 0 && radial_value(kernel, result) == 0)
+        result.weight = 0;
+      return result;
+    }
+
+    /// The coefficients c = w C of least Σ c²/(A g), g = exp(-(2r/δ)²): c = A g times a polynomial.
+    template <int dim>
+    MomentConditions<dim> conditions_of(const Kernel<dim> &kernel,
+                                        std::vector<Exponents<dim>> (*select)(int lowest,
+                                                                              int highest))
+    {
+      constexpr unsigned int degree = 2;
+      MomentConditions<dim> conditions = kernel_conditions(kernel, degree, select);
+      conditions.scale = [kernel](const Bond<dim> &bond)
+      {
+        const double s = 2 * bond.xi.norm() / kernel.horizon(), C = radial_value(kernel, bond);
+        return bond.area * std::exp(-s * s) / (C * C);
+      };
+      return conditions;
+    }
+  } // namespace
+
+  template <int dim>
+  NeighbourhoodQuadrature<dim> differential_operator(const Kernel<dim> &kernel)
+  {
+    // on a lattice symmetry meets the odd moments, which need not be independent there
+    const auto even = conditions_of(kernel, even_exponents<dim>),
+               all = conditions_of(kernel, exponents<dim>);
+    return {bond<dim>, [even, all](Family<dim> &family)
+            {
+              for (Bond<dim> &bond : family.bonds)
+                bond.weight = 0;
+              meet(family.neighbours.empty() ? even : all, family);
+            }};
+  }
+
+  template NeighbourhoodQuadrature<2> differential_operator(const Kernel<2> &);
+  template NeighbourhoodQuadrature<3> differential_operator(const Kernel<3> &);
+} // namespace plumbline::meshfree
