@@ -88,14 +88,17 @@ namespace plumbline::report::page
     if (table.rows.empty())
       return {};
     Data columns = Data::array(), rows = Data::array();
+    std::vector<bool> are_numbers; // the short words among numbers stand as they do
     for (std::size_t j = 0; j < table.columns.size(); ++j)
-      columns.push_back(
-          {{"text", table.columns[j].head}, {"is_number", table.rows.front()[j].is_number}});
+    {
+      are_numbers.push_back(table.rows.front()[j].is_number);
+      columns.push_back({{"text", table.columns[j].head}, {"is_number", are_numbers[j]}});
+    }
     for (const auto &row : table.rows)
     {
       Data cells = Data::array();
-      for (const Cell &cell : row)
-        cells.push_back({{"text", cell.text}, {"is_number", cell.is_number}});
+      for (std::size_t j = 0; j < row.size(); ++j)
+        cells.push_back({{"text", row[j].text}, {"is_number", row[j].is_number || are_numbers[j]}});
       rows.push_back({{"cells", std::move(cells)}});
     }
     return {
@@ -104,10 +107,13 @@ namespace plumbline::report::page
 
   Data figure(const Figure &figure)
   {
+    const std::string coinciding = coinciding_lines(figure.picture);
+    const std::string words = coinciding.empty() ? "" : "Lines that coincide: " + coinciding + ".";
+    const bool has_both = !words.empty() && !figure.caption.empty();
     return {{"svg", inline_svg(figure.picture, figure.prefix, figure.title)},
             {"data", chart_data(figure.picture)},
             {"title", figure.title},
-            {"caption", figure.caption},
+            {"caption", figure.caption + (has_both ? " " : "") + words},
             {"source", figure.source},
             {"file", figure.file},
             {"is_large", figure.is_large},

@@ -33,10 +33,23 @@ namespace plumbline::report
       for (const Line &line : plot.lines)
         lines.push_back(
             line_data(line.label, line.style.colour, line.style.is_dashed, line.points));
-      const Data data = {{"title", plot.title},   {"x", plot.x_label},     {"y", plot.y_label},
-                         {"xLog", plot.is_x_log}, {"yLog", plot.is_y_log}, {"lines", lines}};
+      const Data data = {{"title", plot.title},
+                         {"x", plot.x_label},
+                         {"y", plot.y_label},
+                         {"xLog", plot.is_x_log},
+                         {"yLog", plot.is_y_log},
+                         {"lines", lines},
+                         {"coincide", coinciding_lines(plot)}};
       write_file((folder / plot.file).replace_extension(".json"), data.dump() + "\n");
     }
+  }
+
+  std::string coinciding_lines(const std::filesystem::path &picture)
+  {
+    std::filesystem::path file = picture;
+    std::ifstream in(file.replace_extension(".json"), std::ios::binary);
+    const Data data = Data::parse(in, nullptr, false); // no chart: discarded
+    return data.is_object() ? data.value("coincide", "") : "";
   }
 
   std::string chart_data(const std::filesystem::path &picture)

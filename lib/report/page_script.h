@@ -16,6 +16,9 @@ namespace plumbline::report
   /// The element of a figure for the script; empty if the picture has no such file.
   std::string chart_data(const std::filesystem::path &picture);
 
+  /// The coinciding_lines of a picture, by that file.
+  std::string coinciding_lines(const std::filesystem::path &picture);
+
   /// The page with the script, if any figure has chart_data.
   std::string with_script(std::string page);
 } // namespace plumbline::report

@@ -329,6 +329,19 @@ namespace plumbline::report
       unsigned int n_ = 0;
     };
 
+    /// Whether two lines lie on each other in a picture: at the same places, nowhere further apart
+    /// than the lines are wide.
+    bool coincide(const Line &a, const Line &b, bool is_log, const Range &y)
+    {
+      constexpr double part = .004; // of the axis
+      const auto place = [&](double value)
+      { return is_log ? std::log(std::max(value, y.low)) : value; };
+      const double width = part * (place(y.high) - place(y.low));
+      return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
+                        [&](const Vertex &v, const Vertex &w)
+                        { return v.x == w.x && std::abs(place(v.y) - place(w.y)) <= width; });
+    }
+
     std::string plot_commands(const Plot &plot)
     {
       const View view = view_of(plot);
@@ -350,6 +363,34 @@ namespace plumbline::report
              (view.has_strip ? strip_commands(view.strip) : "") + curves.commands();
     }
   } // namespace
+
+  std::string coinciding_lines(const Plot &plot)
+  {
+    if (std::all_of(plot.lines.begin(), plot.lines.end(),
+                    [](const Line &line) { return line.points.empty(); }))
+      return "";
+    const View view = view_of(plot);
+    std::vector<std::pair<const Line *, std::string>> groups; // the first of each, and all labels
+    for (const Line &line : plot.lines)
+    {
+      const bool is_seen = std::any_of(line.points.begin(), line.points.end(),
+                                       [&](const Vertex &v) { return v.y >= view.y.low; });
+      if (line.label.empty() || line.points.size() < 2 || !is_seen)
+        continue;
+      const auto same = std::find_if(
+          groups.begin(), groups.end(),
+          [&](const auto &group) { return coincide(*group.first, line, plot.is_y_log, view.y); });
+      if (same == groups.end())
+        groups.emplace_back(&line, line.label);
+      else
+        same->second += " = " + line.label;
+    }
+    std::string text;
+    for (const auto &[first, labels] : groups)
+      if (labels != first->label)
+        text += (text.empty() ? "" : "; ") + labels;
+    return text;
+  }
 
   Style style_of(unsigned int i, bool is_reference)
   {

@@ -96,6 +96,10 @@ namespace plumbline::report
   /// A text as gnuplot takes it, in single quotes: no command or escape inside is carried out.
   std::string quote_gnuplot(const std::string &text);
 
+  /// Labels of the lines that hide each other: "FA = PA-AC; Q1 = DGQ1"; empty if none do. Lines of
+  /// round-off alone have rows of their own.
+  std::string coinciding_lines(const Plot &plot);
+
   /// The commands that draw all plots, each to its own file.
   std::string gnuplot_script(const std::vector<Plot> &plots);
 

@@ -44,6 +44,25 @@ TEST(PageScript, has_the_values_of_the_picture)
   EXPECT_EQ(data["lines"][1]["points"].size(), 1u);                  // no NaN
 }
 
+TEST(PageScript, names_lines_that_hide_each_other)
+{
+  Plot plot = two_lines();
+  plot.lines = {{"FA", style_of(0, false), 1, {{.1, 1e-2}, {.05, 1e-4}}},
+                {"PA", style_of(1, false), 1, {{.1, 1.001e-2}, {.05, 1.001e-4}}},
+                {"Q1", style_of(0, true), 1, {{.1, 1.1e-2}, {.05, 1e-4}}}, // apart at its beginning
+                {"", style_of(2, false), 1, {{.1, 1e-2}, {.05, 1e-4}}},
+                {"OPT", style_of(3, false), 1, {{.1, 1e-2}}}}; // a point has a symbol
+  EXPECT_EQ(coinciding_lines(plot), "FA = PA");
+  const Folder folder;
+  write_chart_data({plot, two_lines()}, folder.path());
+  EXPECT_EQ(coinciding_lines(folder.path() / "map.svg"), "");
+  EXPECT_EQ(coinciding_lines(folder.path() / "errors.svg"), ""); // the last one that was written
+  EXPECT_EQ(coinciding_lines(two_lines()), "");
+  plot.file = "hidden.svg";
+  write_chart_data({plot}, folder.path());
+  EXPECT_EQ(coinciding_lines(folder.path() / "hidden.svg"), "FA = PA");
+}
+
 TEST(PageScript, is_on_pages_with_charts_alone)
 {
   const Folder folder;
