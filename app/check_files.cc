@@ -158,17 +158,19 @@ namespace plumbline::app
                            {}};
     page.facts = {std::to_string(found.cells->n_free) + " free nodes",
                   std::to_string(found.weights.n_bonds) + " bonds", found.level.text()};
-    page.parts = {{"outliers", "Out of line",
-                   "Each quantity against its own spread; found and expected are "
-                   "weights, volumes or moments, as the words say.",
+    page.parts = {{"outliers", "Outliers",
+                   "Each quantity is compared with its own spread. Found and expected values are "
+                   "weights, volumes or moments, as the last column says.",
                    outlier_table(found)},
                   {"moments", "Moments",
-                   "How far sums over the bonds are from the exact moments, relative.",
+                   "Relative difference between the sums over the bonds and the exact moments.",
                    moment_table(found)},
                   {"elastic", "Elastic constants",
                    "Of the nodes' second moments, in the unit of the scene's material.",
                    elastic_table(found)},
-                  {"solution", "Solutions", "Errors of the scene's solution by these weights.",
+                  {"solution", "Solutions",
+                   "Errors of the solution of the scene with these weights and with the reference "
+                   "[unit of the solution].",
                    solution_table(found)}};
     for (std::size_t i = 0; i < found.cells->n_free; ++i)
       page.nodes.push_back({found.cells->nodes[i][0], found.cells->nodes[i][1]});

@@ -81,8 +81,7 @@ namespace plumbline::report
               << std::max(page.defects[i].values[k], range.low) << "\n";
         out << "EOD\n";
       }
-      out << panels.begin("defects.svg", "defects of the moments over the free nodes",
-                          "relative defect [1]")
+      out << panels.begin("defects.svg", "Moment defects of the free nodes", "relative defect [1]")
           << "set palette defined (" << viridis << ")\nset logscale cb\nset cbrange ["
           << exact(range.low) << ":" << exact(range.high) << "]\nset cbtics 1e" << (decades + 7) / 8
           << "\nunset mcbtics\nset format cb '10^{%T}'\n";

@@ -84,7 +84,18 @@ namespace plumbline::report::page
       std::size_t n_levels = study::levels_for_verdict; ///< the fewest of an undecided trend
     };
 
-    std::vector<Tally> tally(const study::StudyResults &results,
+    /// Without advice on costs, as for weights of another code, all cases.
+    std::vector<Case> judged_cases(const study::StudyResults &results)
+    {
+      if (results.advice.empty())
+        return cases(results);
+      std::vector<Case> places;
+      for (const study::Advice &advice : results.advice)
+        places.push_back({advice.problem, advice.series, ""});
+      return places;
+    }
+
+    std::vector<Tally> tally(const study::StudyResults &results, const std::vector<Case> &places,
                              const std::vector<MethodName> &methods)
     {
       std::vector<Tally> tallies;
@@ -92,9 +103,8 @@ namespace plumbline::report::page
       {
         Tally one;
         one.method = method.name;
-        for (const study::Advice &advice : results.advice)
-          if (const study::Trend *trend =
-                  decisive_trend(results, method.name, Case{advice.problem, advice.series, ""}))
+        for (const Case &place : places)
+          if (const study::Trend *trend = decisive_trend(results, method.name, place))
           {
             ++one.n;
             one.n_converge += trend->outcome == study::Outcome::converges ? 1 : 0;
@@ -136,9 +146,10 @@ namespace plumbline::report::page
     Data summary(const study::StudyResults &results, const std::vector<MethodName> &methods,
                  bool is_own)
     {
+      const std::vector<Case> places = judged_cases(results);
       std::string good, bad, mixed, blind, failed, open;
       std::map<std::size_t, std::string> too_few; // by the number of levels there are
-      for (const Tally &one : tally(results, methods))
+      for (const Tally &one : tally(results, places, methods))
         if (one.n_converge == one.n)
           join(good, one.method);
         else if (one.n_stall == one.n)
@@ -158,7 +169,7 @@ namespace plumbline::report::page
       for (const auto &[n_levels, names] : too_few)
         few.push_back(
             {{"n_levels", n_levels}, {"n_needed", study::levels_for_verdict}, {"methods", names}});
-      const bool is_one = results.advice.size() == 1;
+      const bool is_one = places.size() == 1;
       const bool is_open = !open.empty() || !too_few.empty();
       const bool is_other = !bad.empty() || !mixed.empty() || !blind.empty();
       return {{"is_own", is_own},
@@ -167,8 +178,7 @@ namespace plumbline::report::page
                               : "the moments of their weights are"},
               {"target", study::target_words(results)},
               {"is_one", is_one},
-              {"everywhere",
-               is_one ? "" : " in all " + std::to_string(results.advice.size()) + " cases"},
+              {"everywhere", is_one ? "" : " in all " + std::to_string(places.size()) + " cases"},
               {"good", good},
               {"is_none", good.empty() && !is_open},
               {"is_none_yet", good.empty() && is_open && is_other},
@@ -184,9 +194,9 @@ namespace plumbline::report::page
 
   Data advice(const study::StudyResults &results)
   {
-    if (results.advice.empty())
-      return {};
     const std::vector<MethodName> names = methods(results);
+    if (tally(results, judged_cases(results), names).empty())
+      return {};
     const bool is_own = study::is_against(results.decisive_error, scene::Target::finest);
     if (!is_own && is_without_limit(results.regime)) // nothing converges or stalls
       return {{"ranking", ranking(results, names)},
@@ -208,6 +218,7 @@ namespace plumbline::report::page
             {"target", study::target_words(results)},
             {"over", ""},
             {"summary", summary(results, names, is_own)},
+            {"has_cards", !cards.empty()},
             {"n_more", more.empty() ? Data() : Data(more.size())},
             {"cards", std::move(cards)},
             {"more", std::move(more)}};

@@ -319,6 +319,7 @@ TEST(Check, writes_a_page_unless_told_not_to)
   expect_found(outcome.out, "report    " + (folder / "report.html").string());
   const std::string page = read(folder / "report.html");
   expect_found(page, "The weights are not as required");
+  EXPECT_LT(page.find("The weights are not as required"), page.find("<h2>")); // the answer
   expect_found(page, "the bond from node 77 to node 79");
   expect_found(page, "<svg");
   expect_found(read(folder / "outliers.csv"), "77,79,");

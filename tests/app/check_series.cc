@@ -71,6 +71,8 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
   EXPECT_EQ(n_trends, 1u);
   const std::string page = read(out / "report.html");
   expect_found(page, "id=\"convergence\"");
+  expect_found(page, "<b>✓ Converge: given weights"); // the answer, before the verdicts
+  EXPECT_LT(page.find("✓ Converge: given weights"), page.find("<h2>Verdicts"));
   for (const std::string cost :
        {"Work and precision", "setup CPU s"}) // of this program, not of theirs
     EXPECT_EQ(page.find(cost), std::string::npos) << cost;

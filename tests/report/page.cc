@@ -8,6 +8,7 @@
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -48,8 +49,8 @@ namespace plumbline::report
     EXPECT_EQ(fixture::count(html, "<b>✗ not AC</b>"), results.trends.size() - n_converge);
     EXPECT_TRUE(holds(html, "<b>✓ AC</b><small>3.633e-5</small><small>rate 2.00</small>"));
     EXPECT_LT(html.find("Which method?"), html.find("<h2>Verdicts"));
-    EXPECT_LT(html.find("Which method?"), html.find("<b>Warning.</b>"));
-    EXPECT_TRUE(holds(html, "<b>Warning.</b>"));
+    EXPECT_LT(html.find("Which method?"), html.find("<b>Warning:</b>"));
+    EXPECT_TRUE(holds(html, "<b>Warning:</b>"));
     EXPECT_LT(html.find("<h2>Verdicts"), html.find("<h2>Work and precision"));
     EXPECT_LT(html.find("<h2>Work and precision"), html.find("<h2>Convergence"));
   }
@@ -66,6 +67,10 @@ namespace plumbline::report
       EXPECT_NE(style.find((*one)[1].str() + ": ", dark), std::string::npos) << (*one)[1];
     EXPECT_TRUE(holds(style, "scroll the picture sideways"));
     EXPECT_TRUE(holds(style, "no-repeat local")); // covers of the shadows beside tables
+    // black lines of charts, and of markers beside them, are light there
+    const std::string inverted = style.substr(style.find("figure:has(> .chart-data) svg", dark));
+    for (const char *const what : {".marker,", ".interactive canvas,", "filter: invert("})
+      EXPECT_TRUE(holds(inverted.substr(0, inverted.find('}')), what)) << what;
   }
 
   TEST(ReportPage, HasAllItsParts)
@@ -139,15 +144,42 @@ namespace plumbline::report
     EXPECT_TRUE(holds(html, "<b>Q1</b><small> a tie with A&lt;B, FA</small></td>"));
     EXPECT_FALSE(
         holds(html, "<td>relative error ≤ 1e-2 … 1e-4</td>")); // another answer, so another row
-    EXPECT_TRUE(holds(html, "<b>Warning.</b> solution &amp; load contradict each other."));
+    EXPECT_TRUE(holds(html, "<b>Warning:</b> solution &amp; load contradict each other."));
     EXPECT_FALSE(holds(html, "Not in it, since methods share it")); // nothing was made
     results.warnings.clear();
     results.records.front().set("geometry seconds", 2.5); // FA
     results.records.back().set("geometry seconds", 1.5);  // Q1
     html = page_of(results);
-    EXPECT_FALSE(holds(html, "<b>Warning.</b>"));
+    EXPECT_FALSE(holds(html, "<b>Warning:</b>"));
     EXPECT_TRUE(holds(html, "the mesh of Galerkin methods, up to 1.5 s a level; mesh and cells of "
                             "meshfree nodes, up to 2.5 s a level of CPU time."));
+  }
+
+  // weights of another code have no cost to be advised by
+  TEST(ReportPage, AnswersWithoutAdvice)
+  {
+    study::StudyResults results = fixture::results();
+    const std::string answer = "✗ Stall everywhere, however fine the mesh: FA, IPA-AC, P0.";
+    EXPECT_TRUE(holds(page_of(results), answer));
+    results.advice.clear();
+    std::string html = page_of(results);
+    EXPECT_TRUE(holds(html, answer));
+    EXPECT_FALSE(holds(html, "The cheapest run"));
+    EXPECT_FALSE(holds(html, "class=\"card\""));
+    results.trends.clear();
+    EXPECT_FALSE(holds(page_of(results), "Which method?"));
+  }
+
+  TEST(ReportPage, HasColumnsOfNumbersAtTheRight)
+  {
+    Table table;
+    table.columns = {"quantity", "value", "meaning"};
+    table.rows = {{text_cell("events"), number_cell(2), text_cell("in all")},
+                  {text_cell("connected"), text_cell("yes"), text_cell("at the end")}};
+    const auto data = page::table(table);
+    EXPECT_EQ(data["rows"][1]["cells"][0]["is_number"], false);
+    EXPECT_EQ(data["rows"][1]["cells"][1]["is_number"], true);
+    EXPECT_EQ(data["rows"][1]["cells"][2]["is_number"], false);
   }
 
   TEST(ReportPage, RanksByTheLargestErrorWhereNothingIsRefined)
