@@ -56,7 +56,10 @@ namespace plumbline::report
 
   std::string rounded(double value)
   {
-    return std::isfinite(value) ? short_exponent(print("%.4g", value)) : missing;
+    if (!std::isfinite(value))
+      return missing;
+    const bool is_short_integer = std::abs(value) < 1e5 && value == std::trunc(value);
+    return short_exponent(print(is_short_integer ? "%.5g" : "%.4g", value));
   }
 
   std::string rounded_error(double value)

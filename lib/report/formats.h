@@ -12,7 +12,8 @@ namespace plumbline::report
   /// All digits of a number ("%.17g"); empty for a value that is not finite.
   std::string exact(double value);
 
-  /// Four significant digits for people: 0.05, 1.234e-5; an en dash for a value that is not finite.
+  /// Four significant digits for people: 0.05, 1.234e-5, but 21120 as it is; an en dash for a value
+  /// that is not finite.
   std::string rounded(double value);
 
   /// Four significant digits, always with an exponent (1.234e-5), so that a column lines up.

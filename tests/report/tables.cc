@@ -55,6 +55,8 @@ namespace plumbline::report
   {
     EXPECT_EQ(rounded(.05), "0.05");
     EXPECT_EQ(rounded(123456.), "1.235e5");
+    EXPECT_EQ(rounded(21120.), "21120"); // a count
+    EXPECT_EQ(rounded(21120.5), "2.112e4");
     EXPECT_EQ(rounded(-1.23456e-7), "-1.235e-7");
     EXPECT_EQ(rounded(std::nan("")), "–");
     EXPECT_EQ(rounded_error(.0123456), "1.235e-2");
