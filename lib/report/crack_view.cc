@@ -9,38 +9,42 @@ namespace plumbline::report
   namespace
   {
     const char *const thresholds_words =
-        "Far from its tip a crack turns the intact strip into two halves. It neither grows nor "
-        "closes where that sets free the lattice's toughness G_c,h, all bonds across a line at "
-        "their limit; found from one column in equilibrium, intact and separated. W H, the uniform "
-        "strain's energy times the height between the grips, is close to it, and tends to it with "
-        "the horizon.";
+        "Far from its tip an advancing crack separates the intact strip into two halves. It "
+        "neither "
+        "grows nor closes if this releases the toughness of the lattice, G_c,h, the energy of all "
+        "bonds across a line at their limit. The threshold is computed from one column in "
+        "equilibrium, intact and separated. W H, the energy density of uniform strain times the "
+        "height between the grips, is close to it, and tends to it as the horizon decreases.";
 
     Table numbers(const Record &record)
     {
       return quantity_table(
           record,
-          {{"advance", "of the tip, from the notch to the end of the time [length]"},
+          {{"advance", "of the crack tip from the notch, at the final time [length]"},
            {"speed", "of the tip [length/time]; in SI units m/s"},
-           {"speed / c_R", "the line fitted to the tip where it has gone 1/5 to 4/5 of its way"},
-           {"fastest / c_R", "over any tenth of the time for which the tip moves"},
-           {"c_R", "Rayleigh waves, which no crack overtakes [length/time]"},
-           {"c_T", "shear waves [length/time]"},
-           {"strained W H / G_c,h", "energy of the strained strip over the lattice's toughness"},
-           {"strain", "of the grips, u_y = strain y"},
-           {"G_c", "of the law [force/length]"},
-           {"c", "of the potential c (1 - exp(-beta s)) [force/length]"},
-           {"beta", "of the same [1/length]"},
+           {"speed / c_R",
+            "relative to Rayleigh waves, of a line fitted from 1/5 to 4/5 of the advance"},
+           {"fastest / c_R", "maximum over any tenth of the time for which the tip moves"},
+           {"c_R", "Rayleigh wave speed, which no crack exceeds [length/time]"},
+           {"c_T", "shear wave speed [length/time]"},
+           {"strained W H / G_c,h",
+            "energy of the strained strip relative to the toughness of the lattice"},
+           {"strain", "prescribed by the grips, u_y = strain · y"},
+           {"G_c", "toughness by the bond potential [force/length]"},
+           {"c", "of the bond potential c (1 - exp(-beta s)) [force/length]"},
+           {"beta", "of the bond potential [1/length]"},
            {"softening strain", "of a bond as long as the horizon"},
-           {"G_c,h / G_c", "of the lattice, over that"},
-           {"soft energy / G_c,h", "rise of the energy in soft bonds for a length of advance"},
-           {"energy drift",
-            "largest change of kinetic + bonds + dissipated, relative to the start"},
-           {"asymmetry", "largest difference of u from its mirror image, at the end"},
-           {"time step", record.text("scheme")},
-           {"critical step", "beyond which errors grow without bound"},
-           {"steps", "of the motion"},
-           {"nodes", "the grips' too"},
-           {"resumed at", "time of the checkpoint that the motion went on from; 0: none"}});
+           {"G_c,h / G_c", "toughness of the lattice relative to G_c"},
+           {"soft energy / G_c,h",
+            "energy that softened bonds gain per advance, relative to the lattice's toughness"},
+           {"energy drift", "maximum change of kinetic + bonds + dissipated energy, relative to "
+                            "the initial energy"},
+           {"asymmetry", "maximum difference of u from its mirror image, at the final time"},
+           {"time step", record.text("scheme") + " [time]"},
+           {"critical step", "largest stable time step [time]"},
+           {"steps", "time steps"},
+           {"nodes", "including those in the grips"},
+           {"resumed at", "time of the checkpoint from which the run was resumed (0: none)"}});
     }
 
     Part thresholds(const StudyResults &results)
@@ -69,7 +73,7 @@ namespace plumbline::report
     {
       const std::string &outcome = record.text("outcome");
       std::string text =
-          "At " + rounded(record["load"]) + " of its threshold the crack " + outcome_of(record);
+          "At " + rounded(record["load"]) + " times its threshold the crack " + outcome_of(record);
       const std::string horizons = rounded(record["advance"] / record.key.horizon) + " horizons";
       if (outcome == base::word(scene::CrackOutcome::too_short))
         text += ": its tip advanced by " + horizons;
@@ -82,9 +86,9 @@ namespace plumbline::report
                           rounded(record["speed / c_R"]) + " of the Rayleigh wave speed, at most " +
                           rounded(record["fastest / c_R"])
                     : ", at an unknown speed: too few tip positions were sampled for a fit";
-      text += "; the picture is " + (record["asymmetry"] == 0
-                                         ? std::string("symmetric to the last bit")
-                                         : "asymmetric by " + rounded(record["asymmetry"]));
+      text += "; the solution is " + (record["asymmetry"] == 0
+                                          ? std::string("symmetric to the last bit")
+                                          : "asymmetric by " + rounded(record["asymmetry"]));
       if (!record.text("reason").empty())
         text += ". Reason: " + record.text("reason");
       return text + ".";
@@ -92,7 +96,8 @@ namespace plumbline::report
 
     DataChart tip_chart(const Record &record, const analysis::Curve &samples)
     {
-      DataChart chart = linear_chart("tip", "Where the crack ends", "t [time]", "x [length]");
+      DataChart chart = linear_chart("tip", "Crack tip position", "t [time]", "x [length]",
+                                     "Dashed: a Rayleigh wave that starts at the notch tip.");
       chart.data = table_of(analysis::Curve{samples[0], samples[1]});
       const std::vector<double> &t = samples[0].values, &x = samples[1].values;
       std::vector<Vertex> tip;
@@ -115,12 +120,13 @@ namespace plumbline::report
 
     DataChart speed_chart(const Record &record, const analysis::Curve &samples)
     {
-      DataChart chart = linear_chart("speed", "How fast it runs", "t [time]",
-                                     "speed over Rayleigh waves'", "Over a twentieth of the time.");
+      DataChart chart =
+          linear_chart("speed", "Crack speed", "t [time]", "tip speed / Rayleigh wave speed [1]",
+                       "Mean over a twentieth of the simulated time.");
       const std::vector<double> &t = samples[0].values, &x = samples[1].values;
       const std::size_t window = std::max<std::size_t>(1, (t.size() - 1) / 20);
       std::vector<Vertex> speed;
-      chart.data.columns = {"t [time]", "speed over Rayleigh waves'"};
+      chart.data.columns = {"t [time]", "tip speed / Rayleigh wave speed [1]"};
       for (std::size_t i = window; i < t.size(); ++i)
       {
         speed.push_back({.5 * (t[i] + t[i - window]),
@@ -137,8 +143,8 @@ namespace plumbline::report
     {
       DataChart chart = linear_chart(
           "energies", "Energies", "t [time]", "energy [force]",
-          "Grips that stand still do no work: the sum stays as it is but for the error "
-          "of the time steps.");
+          "The grips do not move and do no work: the sum is constant up to the error of the time "
+          "steps. Softened bonds are part of the bonds.");
       chart.data = table_of(samples);
       const auto line = [&](const std::string &label, unsigned int style, const auto &value)
       {
@@ -153,7 +159,7 @@ namespace plumbline::report
       line("sum", 0,
            [&](std::size_t i) { return at(kinetic)(i) + at(bonds)(i) + at(dissipated)(i); });
       line("bonds", 1, at(bonds));
-      line("soft ones of them", 2, at(soft));
+      line("softened bonds", 2, at(soft));
       line("kinetic", 3, at(kinetic));
       if (samples[dissipated].values.back() > 0)
         line("dissipated", 4, at(dissipated));
@@ -166,12 +172,13 @@ namespace plumbline::report
       std::vector<std::string> titles;
       for (const double t : record.curves.at("moments")[0].values)
         titles.push_back("t = " + rounded(t));
-      const char *const title = "Where bonds are soft";
-      return {"moments", title,
-              damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
-              "The part of each node's bonds that is soft or cut, on the body at rest, at six "
-              "times; above and below it the grips. As VTU with displacements: frames "
-              "(Time/frames)."};
+      const char *const title = "Damage: softened bonds";
+      return {
+          "moments", title,
+          damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
+          "The fraction of each node's bonds that is softened or cut, on the undeformed body at "
+          "six times; the grips are above and below. With displacements, as VTU: "
+          "Time/frames."};
     }
   } // namespace
 
@@ -188,13 +195,13 @@ namespace plumbline::report
     const Record &record = *moved;
     view.answer = verdict(record);
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()),
-                  "load " + rounded(record["load"]) + " of the threshold",
-                  "it " + outcome_of(record)};
+                  "load " + rounded(record["load"]) + " × threshold",
+                  "crack " + outcome_of(record)};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});
     const analysis::Curve &samples = record.curves.at("samples");
     view.galleries = {
         {"picture",
-         "What happens",
+         "Results",
          "",
          {tip_chart(record, samples), speed_chart(record, samples), energy_chart(samples)},
          {moments(record)}}};

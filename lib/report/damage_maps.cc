@@ -97,7 +97,7 @@ namespace plumbline::report
     out << "\nreset\n";
     for (std::size_t i = 0; i < maps.size(); ++i)
       out << "$m" << i << " << EOD\n" << rows_of(maps[i], cells, size, largest) << "EOD\n";
-    out << panels.begin(file, title, "part of a node's bonds")
+    out << panels.begin(file, title, "fraction of a node's bonds [1]")
         << "set palette defined (0 '#ffffff', 1 '#fde0c8', 2 '#f4a268', 4 '#D55E00', 8 "
            "'#3a1a00')\nset cbrange [0:1]\nset cbtics .2\n";
     for (std::size_t i = 0; i < maps.size(); ++i)

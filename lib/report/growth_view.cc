@@ -31,50 +31,51 @@ namespace plumbline::report
     {
       const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid);
       return {
-          {"broken bonds", "the notch's not counted"},
-          {"events", "at each a bond and its ties, or a batch"},
-          {"first break", "load at which the first bond breaks: event 0, " +
-                              std::to_string(first_bonds(record)) + " at once"},
-          {"first advance", "load at which the tip leaves the notch's: event " +
-                                std::to_string(record.count("first advance event"))},
-          {"peak load", "where the reaction is largest"},
-          {"peak reaction", "of the grips on what they do [force]"},
-          {"advance", "of the tip, from the notch's [length]"},
-          {"G by bonds", "of broken bonds, each by its part of a straight crack's length, over the "
-                         "width [force/length]"},
-          {"G by energy", "all that bonds held and that was released, over the width: above the "
-                          "material's where growth is unstable [force/length]"},
-          {"K by bonds", "root of that and the mean of E/(1 - nu²)"},
-          {"K by energy", "the same of G by energy"},
-          {"L1", "of the crack within phase 1, the weaker, as a straight crack breaks so many "
-                 "bonds; of one phase all [length]"},
-          {"L2", "the same within phase 2, the tougher"},
-          {"Li", "the same on their interface, of bonds with an end in each"},
-          {"width", "of all sides that separated, projected onto the x-axis [length]"},
-          {"apart", "sides that separated elsewhere, not connected to the notch"},
-          {"connected", "paths of bonds join the grips at the end"},
-          {"reaction left", "at the end, over its largest"},
-          {"s0", "critical stretch of bonds, the smallest of all materials"},
-          {"G_h / G", "all bonds across a straight line of the lattice at their limits"},
+          {"broken bonds", "without those that the notch cuts"},
+          {"events", "each breaks one bond and its ties, or a batch of bonds"},
+          {"first break", "load factor at which the first bond breaks (event 0, with " +
+                              std::to_string(first_bonds(record)) + " bonds at once)"},
+          {"first advance", "load factor at which the crack starts to grow (event " +
+                                std::to_string(record.count("first advance event")) + ")"},
+          {"peak load", "load factor of the peak reaction"},
+          {"peak reaction", "of the grips, work-conjugate to the load factor [force]"},
+          {"advance", "growth of the crack, from the notch tip [length]"},
+          {"G by bonds", "energy of the broken bonds, each by its share of a straight crack's "
+                         "length, over the width [force/length]"},
+          {"G by energy", "energy dissipated in broken bonds and released, over the width; larger "
+                          "than that of the material if growth is unstable [force/length]"},
+          {"K by bonds",
+           "√(G E/(1 - ν²)) with G by bonds and the mean of E/(1 - ν²) [force/length^1.5]"},
+          {"K by energy", "the same with G by energy [force/length^1.5]"},
+          {"L1", "length of a straight crack with as many broken bonds in phase 1, the weaker "
+                 "one; with one phase, of the whole crack [length]"},
+          {"L2", "the same in phase 2, the tougher one [length]"},
+          {"Li", "the same on the interface: bonds with one end in each phase [length]"},
+          {"width", "of all separated cell faces, projected onto the x-axis [length]"},
+          {"apart", "separated cell faces that are not connected to the notch"},
+          {"connected", "whether bonds still connect the grips at the end"},
+          {"reaction left", "reaction at the end relative to its peak"},
+          {"s0", "critical stretch of bonds, the minimum over all materials"},
+          {"G_h / G", "energy of all bonds across a straight line of the lattice at the critical "
+                      "stretch, relative to G"},
           {"G_peak / G",
-           "at which a crack goes on in a strip of this lattice; G was divided by it"},
-          {"unpaired", "broken bonds whose mirror image about the middle is whole"},
-          {"imbalance",
-           study::is_corrected(record)
-               ? "maximum imbalance of the bonds' energy relative to the work; surface "
-                 "terms derive from no energy"
-               : "maximum imbalance of energy relative to the work"},
-          {"residual", "force on a node over a bond's at the beginning"},
-          {"unknowns", "displacements"},
-          {"bonds", "whole at the beginning"},
-          {"factorisations",
-           std::string(has_factor ? "of the equations; " : "set-ups of multigrid; ") +
-               rounded_seconds(record["factor seconds"]) + " in all"},
-          {"updates", "events without one, up to rank " + rounded(record["largest rank"]) + "; " +
+           "energy at which a crack grows in a strip of this lattice; G was divided by it"},
+          {"unpaired", "broken bonds whose mirror image about the midline is intact"},
+          {"imbalance", study::is_corrected(record)
+                            ? "maximum imbalance of the bonds' energy relative to the work; the "
+                              "surface terms do not derive from an energy"
+                            : "maximum imbalance of energy relative to the work"},
+          {"residual", "force on a node relative to that of a bond, at the beginning"},
+          {"unknowns", "displacement components"},
+          {"bonds", "intact at the beginning"},
+          {"factorisations", std::string(has_factor ? "of the matrix; " : "setups of multigrid; ") +
+                                 rounded_seconds(record["factor seconds"]) + " in all"},
+          {"updates", "events without a factorisation, up to rank " +
+                          rounded(record["largest rank"]) + "; " +
                           rounded_seconds(record["update seconds"]) + " in all"},
           {"iterations", std::string(has_factor ? "of GMRES" : "of conjugate gradients") +
-                             ", at most " + rounded(record["most iterations"]) + " an event"},
-          {"resumed", "events of the checkpoint that the growth went on from; 0: none"}};
+                             ", at most " + rounded(record["most iterations"]) + " per event"},
+          {"resumed", "events read from a checkpoint (0: none)"}};
     }
 
     Table numbers(const Record &record)
@@ -84,11 +85,11 @@ namespace plumbline::report
       const Curve &parts = record.curves.at("parts");
       const std::size_t n = parts[0].values.size();
       for (std::size_t i = 0; i < n && n <= most_parts && !record.has("L1"); ++i)
-        table.rows.push_back(
-            {text_cell("length, G = " + rounded(column(parts, "G")[i])),
-             number_cell(column(parts, "length")[i]),
-             text_cell(rounded(column(parts, "bonds")[i]) +
-                       " broken bonds of this toughness, as a straight crack has them [length]")});
+        table.rows.push_back({text_cell("length, G = " + rounded(column(parts, "G")[i])),
+                              number_cell(column(parts, "length")[i]),
+                              text_cell(rounded(column(parts, "bonds")[i]) +
+                                        " broken bonds of this toughness; length of a straight "
+                                        "crack with as many [length]")});
       return table;
     }
 
@@ -98,17 +99,25 @@ namespace plumbline::report
       switch (end.value_or(problem::GrowthEnd::unknown))
       {
       case problem::GrowthEnd::parted:
-        return "until no path of bonds joins the grips";
+        return "until no bonds connect the grips";
       case problem::GrowthEnd::unloaded:
-        return "until the reaction is " + rounded(record["min reaction"]) +
-               " of its largest (Fracture/min reaction)";
+        return "until the reaction has fallen to " + rounded(record["min reaction"]) +
+               " of its peak (Fracture/min reaction)";
       case problem::GrowthEnd::loaded:
         return "until Fracture/max load, " + rounded(record["max load"]);
       case problem::GrowthEnd::whole:
-        return "until no bond is left that can break";
+        return "until no breakable bond is left";
       default:
         return "";
       }
+    }
+
+    std::string growth_words(const Record &record)
+    {
+      if (!record.has("first advance"))
+        return "The crack does not grow";
+      return "The crack starts to grow at load " + rounded(record["first advance"]) +
+             " and advances by " + rounded(record["advance"]) + " [length]";
     }
 
     std::string verdict(const Record &record)
@@ -116,22 +125,23 @@ namespace plumbline::report
       std::string text;
       const bool is_broken = record.count("events") > 0;
       if (is_broken)
-        text = std::to_string(record.count("broken bonds")) + " bonds break at " +
-               std::to_string(record.count("events")) + " events from load " +
+        text = growth_words(record) + "; the peak reaction, " + rounded(record["peak reaction"]) +
+               " [force], is at load " + rounded(record["peak load"]) + ". " +
+               std::to_string(record.count("broken bonds")) + " bonds break at " +
+               std::to_string(record.count("events")) + " events, from load " +
                rounded(column(record.curves.at("events"), "load").front()) + " on, " +
-               ending(record) + ". The reaction is largest, " + rounded(record["peak reaction"]) +
-               ", at load " + rounded(record["peak load"]) + "; the crack advances by " +
-               rounded(record["advance"]);
+               ending(record);
       else
         text = "No bond breaks up to load " + rounded(record["last load"]);
       if (record.count("apart") > 0)
-        text += "; bonds also part elsewhere, " + std::to_string(record.count("apart")) +
-                " sides that do not join the notch";
+        text += "; " + std::to_string(record.count("apart")) +
+                (record.count("apart") == 1 ? " cell face separates" : " cell faces separate") +
+                " elsewhere, not connected to the notch";
       if (is_broken)
         text += ". At the end " +
                 std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +
-                " join the grips, and " + rounded(record["reaction left"]) +
-                " of the largest reaction is left";
+                " connect the grips, and the reaction is " + rounded(record["reaction left"]) +
+                " of its peak";
       return text + ".";
     }
 
@@ -162,9 +172,9 @@ namespace plumbline::report
     {
       const std::string &seeds = record.text("seeds"), &field = record.text("field");
       return "Model: " + record.text("model") +
-             ". A bond breaks at the stretch s0, s0² = πG/(3δ(λ + μ)), at which all bonds across a "
-             "straight cut of the continuum hold G (Fan et al. 2022, eq. (2.25); exact where λ = "
-             "μ). On this lattice they hold " +
+             ". A bond breaks at the critical stretch s0, s0² = πG/(3δ(λ + μ)), at which all bonds "
+             "across a straight cut of the continuum store the energy G (Fan et al. 2022, eq. "
+             "(2.25); exact where λ = μ). On this lattice they store " +
              rounded(record["G_h / G"]) +
              " G, and a crack needs more than that to pass from one column of nodes to the next" +
              (record.has("G_peak / G")
@@ -173,7 +183,7 @@ namespace plumbline::report
                         "criterion = calibrated)."
                   : ".") +
              phase_words(record) + interface_words(record) +
-             (field.empty() ? "" : " Of the random field " + field + ".") +
+             (field.empty() ? "" : " With the random field " + field + ".") +
              (seeds.empty() ? "" : " " + seeds + ".");
     }
 
@@ -190,9 +200,9 @@ namespace plumbline::report
     {
       DataChart chart = linear_chart(
           "load", "Reaction over load", "load factor [1]", "reaction [force]",
-          "Under a load that never falls a break lets the reaction fall at once. Dashed: "
-          "the same bonds at loads at which each event would just begin, equilibria that a "
-          "load that follows would pass through.");
+          "Solid: the load never decreases, so that each event lowers the reaction at constant "
+          "load. Dashed: the equilibria at which the events would just begin, through which a load "
+          "that follows the crack would pass.");
       std::vector<Vertex> path = {{0, 0}}, critical = {{0, 0}};
       chart.data =
           data_of(events, {"event", "load", "reaction before", "reaction", "critical load"});
@@ -207,8 +217,8 @@ namespace plumbline::report
         critical.push_back({begins[i], there});
         chart.data.rows[i].push_back(number_cell(there));
       }
-      chart.plot.lines = {dashed_line("where events begin", 1, std::move(critical)),
-                          long_line("load that never falls", 0, std::move(path))};
+      chart.plot.lines = {dashed_line("events begin", 1, std::move(critical)),
+                          long_line("increasing load", 0, std::move(path))};
       return chart;
     }
 
@@ -243,11 +253,11 @@ namespace plumbline::report
     DataChart tip_chart(const Curve &events)
     {
       DataChart chart = linear_chart(
-          "tip", "What load the crack needs", "tip's way from the notch [length]",
+          "tip", "Load at which the crack grows", "crack advance [length]",
           "load factor at which an event begins [1]",
-          "The crack is where next neighbours have separated; its tip the end of these sides "
-          "that is farthest from the notch's tip. From column to column the lattice traps "
-          "it, and lets it go at a lower load.");
+          "The crack consists of the cell faces whose two nodes have separated; its tip is the end "
+          "of these faces that is farthest from the notch tip. The lattice traps the tip at each "
+          "column of nodes and releases it at a lower load.");
       chart.data = data_of(events, {"event", "critical load", "load", "tip x", "tip y", "way"});
       std::vector<Vertex> points;
       double way = 0;
@@ -285,20 +295,21 @@ namespace plumbline::report
       for (std::size_t i = 0; i < moments[0].values.size(); ++i)
         titles.push_back("load " + rounded(column(moments, "load")[i]) + ", " +
                          rounded(column(moments, "events")[i]) + " events");
-      const char *const title = "Where bonds are broken";
+      const char *const title = "Damage: broken bonds";
       std::vector<Picture> all = {
           {"moments", title,
            damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
-           "The part of each node's bonds that is broken or cut, on the body at rest, after even "
-           "parts of all broken bonds. Beside a straight crack at m = 3 it is 11/28, 6/28 and "
+           "The fraction of each node's bonds that is broken or cut, on the undeformed body, at "
+           "equal steps of the number of broken bonds. Beside a straight crack at m = 3 it is "
+           "11/28, 6/28 and "
            "1/28."}};
       if (has_microstructure(record))
-        all.insert(all.begin(),
-                   {"microstructure", "The crack in its microstructure",
-                    microstructure_script(record),
-                    "Grey: G of the nodes, the tougher the darker. Sides between next "
-                    "neighbours that have separated: of the crack orange, apart from it blue; "
-                    "of the notch black. Data: grow/sides.csv."});
+        all.insert(
+            all.begin(),
+            {"microstructure", "The crack in its microstructure", microstructure_script(record),
+             "Grey: G of the nodes, darker is tougher. Separated cell faces: orange those of "
+             "the crack, blue those apart from it, black those of the notch. Data: "
+             "grow/sides.csv."});
       return all;
     }
   } // namespace
@@ -317,7 +328,7 @@ namespace plumbline::report
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()), record.key.problem,
                   record.text("end")};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});
-    view.galleries = {{"picture", "What happens", "", charts(record), pictures(record)}};
+    view.galleries = {{"picture", "Results", "", charts(record), pictures(record)}};
     view.tables = {{"events", table_of(record.curves.at("events"))},
                    {"sides", table_of(record.curves.at("sides"))}};
     return view;

@@ -247,7 +247,7 @@ namespace plumbline::study
                                          " or more");
       else if (motion.advance >= few_horizons * horizon && last_way(all, .2) >= scales.h)
         conclude(Outcome::runs, "the tip advances by " + text(motion.advance / horizon) +
-                                    " horizons and still moves at the end of the time");
+                                    " horizons and still moves at the final time");
       else if (last_way(all, .5) >= scales.h)
         conclude(Outcome::too_short,
                  "the tip advances by " + text(motion.advance / horizon) +
@@ -337,14 +337,14 @@ namespace plumbline::study
 
   std::vector<std::string> left_out_of_cracks()
   {
-    return {"plane, of one lattice, with λ = μ: Poisson's ratio is 1/4 in plane strain",
-            "wells are reversible: where a crack is unloaded it closes and its bonds are whole "
-            "again; only the notch is cut for good, which the paper's model does not have",
-            "faces of a crack do not feel each other in contact beyond what their bonds do",
-            "both ends of the strip are free, bonds end there and are not corrected for it",
-            "no wear, heat, rate dependence of the bonds, or anything beyond the damping that the "
-            "scene gives",
-            "energy of soft bonds is no surface energy: while a crack runs it is more than G_c a "
-            "length, for bonds beside it are soft as well"};
+    return {
+        "two dimensions, one lattice, λ = μ: Poisson's ratio is 1/4 in plane strain",
+        "double-well bonds are reversible: an unloaded crack closes and its bonds are intact "
+        "again; only the notch is cut permanently, which the paper's model does not have",
+        "no contact forces between crack faces, except those of their bonds",
+        "both ends of the strip are free, without a surface correction of the bonds",
+        "no wear, heat or rate dependence of the bonds; no damping except that of the scene",
+        "the energy of softened bonds is not the surface energy: while a crack runs it exceeds G_c "
+        "per length, because bonds beside the crack soften as well"};
   }
 } // namespace plumbline::study

@@ -341,20 +341,20 @@ namespace plumbline::study
   std::vector<std::string> left_out_of_growth(bool is_corrected)
   {
     std::vector<std::string> result = {
-        "equilibrium throughout: no inertia, no rate, no heat; what is released where growth is "
-        "unstable is gone",
-        "the load never falls, so that a snap back is passed at the load that began it",
-        "bonds break in tension by their stretch alone, and for good; faces of a crack do not "
-        "press on each other, but bonds that are left do",
-        "plane, of one lattice, whose rows and columns a crack follows the more gladly the "
-        "fewer neighbours there are (Study/m)",
-        "nothing of contact, friction or large rotations; Fracture/stretch = finite takes the "
-        "finite stretch of small displacements"};
-    result.push_back(is_corrected
-                         ? "the balance of energy: no energy has the forces of surface terms"
-                         : "free surfaces and faces of cracks end families: no correction of the "
-                           "dilatation, no terms that make them free of traction (Fracture/surface "
-                           "terms)");
+        "equilibrium at all times: no inertia, rate dependence or heat; the energy released in "
+        "unstable growth is lost",
+        "the load never decreases, so that a snap-back is passed at the load at which it begins",
+        "bonds break irreversibly, by their tensile stretch alone; crack faces transmit pressure "
+        "only through intact bonds",
+        "two dimensions, one lattice: cracks tend to follow its rows and columns, the more so the "
+        "fewer neighbours nodes have (Study/m)",
+        "no contact, friction or large rotations; Fracture/stretch = finite uses the finite "
+        "stretch of small displacements"};
+    result.push_back(
+        is_corrected ? "the energy balance: the surface terms do not derive from an energy"
+                     : "families are incomplete at free surfaces and crack faces: no correction "
+                       "of the dilatation, no terms that make them traction-free "
+                       "(Fracture/surface terms)");
     return result;
   }
 } // namespace plumbline::study

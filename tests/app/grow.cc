@@ -142,7 +142,7 @@ TEST(GrowCommand, tells_what_surface_terms_do)
   EXPECT_EQ(scalar(with, "unpaired"), 0); // mirror images break together
   const std::string page = read(folder / "grow.html");
   expect_found(page, "with surface terms");
-  expect_found(page, "no energy has the forces of surface terms");
+  expect_found(page, "the surface terms do not derive from an energy");
   // the words are aliases, and Material's key is taken where Fracture's says nothing
   const std::string scene = "grow " + plate() +
                             " --quiet --set 'Fracture/least reaction=0.999' --set Expected/growth= "
