@@ -37,7 +37,7 @@ namespace plumbline::report
   {
     Line line = long_line(label, style, std::move(points));
     line.style = style_of(style, true);
-    line.width = 1;
+    line.width = 1.4;
     return line;
   }
 

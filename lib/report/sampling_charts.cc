@@ -119,36 +119,38 @@ namespace plumbline::report
       const auto of_h = [&](const CaseStatistics &one)
       {
         return name_of(results, one) + "h = " + rounded(one.of.h) +
-               (one.is_target_level ? " (target's own)" : "");
+               (one.is_target_level ? " (finest)" : "");
       };
       const auto by_h = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + of_modes(set); };
-      const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set) {
-        return name_of(results, one) + std::to_string(set.n_samples) + " samples" + of_modes(set);
+      const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set)
+      {
+        return name_of(results, one) + std::to_string(set.n_samples) +
+               (set.n_samples == 1 ? " sample" : " samples") + of_modes(set);
       };
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(
           what + "-samples", "Error of the " + what + " over samples", "samples [1]", error_label,
-          "Each line falls at the rule's rate until the error of the discretisation, which more "
-          "samples cannot mend.");
+          "Each line falls at the rate of the sampling rule until the discretisation error, which "
+          "more samples cannot reduce.");
       fill(results, over_samples, value, samples, by_h);
       DataChart over_h = empty_chart(what + "-h", "Error of the " + what + " over h",
                                      "mesh size h [length]", error_label,
-                                     "Each line falls at the discretisation's rate until the error "
-                                     "of its samples, which finer "
-                                     "meshes cannot mend.");
+                                     "Each line falls at the order of the discretisation until the "
+                                     "error of its samples, which finer meshes cannot reduce.");
       over_h.plot.has_slopes = true;
       fill(results, over_h, value, h, by_set);
-      DataChart over_time = empty_chart(
-          what + "-cost", "Error of the " + what + " over time", "CPU time [s]", error_label,
-          "All pairs of h and samples: where lines of two h cross, samples and mesh "
-          "are worth the same.");
+      DataChart over_time = empty_chart(what + "-cost", "Error of the " + what + " over time",
+                                        "CPU time [s]", error_label,
+                                        "All pairs of h and samples. The lowest line at a CPU time "
+                                        "is of the best h for it; where "
+                                        "two lines cross, both are equally good.");
       fill(results, over_time, value, seconds, by_h);
       DataChart over_modes =
           empty_chart(what + "-modes", "Error of the " + what + " over modes",
                       "modes of the field [1]", error_label,
-                      "Each line falls with the variance that is left out, until "
+                      "Each line falls with the variance of the omitted modes, until "
                       "the error of h and of samples.");
       if (!results.sampling.modes.empty())
         fill(results, over_modes, value, modes, by_count);
@@ -169,8 +171,9 @@ namespace plumbline::report
       for (const std::string &name : names)
       {
         const std::string &variable = results.variables.front();
-        DataChart chart = named(slug("over-" + variable + "-" + name), name + " over " + variable,
-                                "At each value of " + variable + ", methods and levels apart.");
+        DataChart chart =
+            named(slug("over-" + variable + "-" + name), name + " over " + variable,
+                  name + " at each value of " + variable + ", for each method and level.");
         chart.plot.x_label = in_units_of_scene(variable);
         chart.plot.y_label = in_units_of_scene(name);
         chart.plot.is_x_log = false;
@@ -227,10 +230,11 @@ namespace plumbline::report
           const auto [least_value, largest] = std::minmax_element(values.begin(), values.end());
           if (!(*largest > *least_value))
             continue;
-          DataChart chart = empty_chart(
-              slug("histogram-" + one.of.method + "-" + rounded(one.of.h) + "-" + name),
-              name + (has_several_methods(results) ? ", " + one.of.method : ""),
-              in_units_of_scene(name), "samples [1]", "How samples of " + name + " are spread.");
+          DataChart chart =
+              empty_chart(slug("histogram-" + one.of.method + "-" + rounded(one.of.h) + "-" + name),
+                          name + (has_several_methods(results) ? ", " + one.of.method : ""),
+                          in_units_of_scene(name), "samples [1]",
+                          "Distribution of " + name + " over the samples.");
           chart.plot.is_x_log = chart.plot.is_y_log = false;
           chart.data.columns = {"from", "to", "samples"};
           Line bars{"", style_of(0, false), 1.8, {}, 1000000};
@@ -269,7 +273,7 @@ namespace plumbline::report
     write_file(folder / "damage.gp",
                damage_script({map_of("mean", nodes, one.field->mean, cells),
                               map_of("deviation", nodes, one.field->deviation, cells)},
-                             "damage.svg", "Where bonds are broken", cells));
+                             "damage.svg", "Damage: broken bonds", cells));
     run_gnuplot(folder, "damage.gp", {"damage.svg"});
     sharpen(folder / "damage.svg");
   }

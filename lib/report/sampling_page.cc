@@ -25,9 +25,10 @@ namespace plumbline::report
     }
 
     const char *const words_of_own =
-        "No exact statistics are known. Errors are differences to the last set at each method's "
-        "finest level: at coarser levels of mesh, samples and modes, at that level of samples and "
-        "modes alone, so that it is in no advice and not in the charts over h and time.";
+        "No exact statistics are known. Errors are differences from the last set at the finest "
+        "level "
+        "of each method. At the finest level itself they show the effect of samples and modes "
+        "alone; it is therefore left out of the advice and of the charts over h and time.";
 
     const SetStatistics *best(const SamplingResults &results)
     {
@@ -40,63 +41,119 @@ namespace plumbline::report
     std::string rule_words(const SamplingResults &r)
     {
       const auto &sampling = r.sampling;
-      std::string text = base::word(sampling.rule);
+      const std::size_t n_variables = r.random.laws().size();
+      std::string text = "Sampling rule: " + base::word(sampling.rule);
       if (sampling.rule == uq::SampleRule::smolyak)
         text += " (growth " + base::word(sampling.growth) + ")";
       if (sampling.rule == uq::SampleRule::monte_carlo)
         text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
-      text += ", " + std::to_string(r.random.laws().size()) + " variables, " +
-              std::to_string(r.n_samples) + " samples in all sets";
+      text += ", " + std::to_string(n_variables) +
+              (n_variables == 1 ? " variable, " : " variables, ") + std::to_string(r.n_samples) +
+              " samples in all sets";
       if (r.spectrum)
         text += ". " + words_of(*r.spectrum);
       if (const std::string seeds = study::seed_words(r.random, r.n_samples); !seeds.empty())
         text += ". " + seeds;
       if (r.sampling.is_axis())
-        text +=
-            ". Nothing is by chance: variables go from end to end, and means and deviations are "
-            "those over the intervals, by the trapezoidal rule";
+        text += ". The variables are not random: they run from end to end of their intervals, over "
+                "which means and deviations are taken by the trapezoidal rule";
       else if (const SetStatistics *const set = best(r))
-        text += ". Weights of the largest set: sum of sizes " + rounded(set->sum_of_sizes) +
-                ", noise √Σw² " + rounded(set->noise) +
-                (set->noise > 1 ? ", by which independent errors of samples grow"
-                                : ", by which independent errors of samples shrink");
+        text += ". Weights w of the largest set: Σ|w| = " + rounded(set->sum_of_sizes) +
+                ", amplification factor of the sampling noise ‖w‖₂ = " + rounded(set->noise) +
+                (set->noise > 1 ? " (independent errors of the samples are amplified)"
+                                : " (independent errors of the samples are reduced)");
       if (sampling.rule == uq::SampleRule::monte_carlo)
-        text += ". Intervals hold means with 95 % confidence, by Student's t, but for the errors "
-                "that all samples have in common, as those of h";
+        text += ". Confidence intervals of means (95 %, Student's t) do not include errors that "
+                "all samples have in common, such as that of h";
       return text + ".";
+    }
+
+    std::string words_of_modes(const SamplingResults &r, unsigned int n_modes)
+    {
+      return r.sampling.modes.empty()
+                 ? ""
+                 : " and " + std::to_string(n_modes) + (n_modes == 1 ? " mode" : " modes");
+    }
+
+    bool is_toughness(const std::string &quantity)
+    {
+      return quantity.compare(0, 2, "K ") == 0;
+    }
+
+    /// Means of the largest set: of the stress intensities if there are any, or else of the first
+    /// few quantities that vary.
+    std::string mean_words(const SamplingResults &r)
+    {
+      constexpr std::size_t most = 5;
+      const SetStatistics *const set = best(r);
+      if (set == nullptr || r.sampling.is_axis())
+        return "";
+      const bool has_toughness =
+          std::any_of(set->quantities.begin(), set->quantities.end(),
+                      [](const auto &one) { return is_toughness(one.first); });
+      std::string text;
+      std::size_t n = 0;
+      for (const auto &[name, s] : set->quantities)
+        if (n < most && (has_toughness ? is_toughness(name) : !is_constant(s)))
+          text +=
+              std::string(n++ == 0 ? "" : "; ") + name + " " + rounded(s.mean) +
+              (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
+              (s.standard_error > 0
+                   ? ", standard error " + rounded(s.standard_error) + ", with 95 % confidence " +
+                         rounded(s.mean - s.confidence) + " to " + rounded(s.mean + s.confidence)
+                   : "");
+      const study::SampleCase &of = r.cases.back().of;
+      return text.empty() ? ""
+                          : "Means by " + of.method + " at h = " + rounded(of.h) + " over " +
+                                std::to_string(set->n_samples) + " samples: " + text + ". ";
+    }
+
+    /// Of all sets but those of a level that is its own target.
+    std::string least_error_words(const SamplingResults &r)
+    {
+      const CaseStatistics *of = nullptr;
+      const SetStatistics *least = nullptr;
+      for (const CaseStatistics &one : r.cases)
+        for (const SetStatistics &set : one.sets)
+          if (!one.is_target_level && set.mean_error &&
+              (least == nullptr || *set.mean_error < *least->mean_error))
+          {
+            of = &one;
+            least = &set;
+          }
+      return least == nullptr
+                 ? ""
+                 : "The smallest error of the mean, " + rounded(*least->mean_error) +
+                       " [unit of the field], is that of " + of->of.method +
+                       " at h = " + rounded(of->of.h) + " with count " +
+                       std::to_string(least->count) + words_of_modes(r, least->n_modes) + ". ";
     }
 
     std::string verdict(const SamplingResults &r, const std::vector<std::string> &faults)
     {
-      std::string text = r.is_complete ? "" : "Not all samples are there yet. ";
+      std::string text = r.is_complete ? "" : "Not all samples have been computed yet. ";
       if (!r.failures.empty())
         text += std::to_string(r.failures.size()) + " of " + std::to_string(r.n_samples) +
                 " samples failed. ";
       if (!r.cheapest.empty())
       {
         const study::CheapestPair &pair = r.cheapest.back();
-        text +=
-            std::string("Cheapest to ") +
-            (is_own(r) ? "a relative difference of the mean" : "a relative error of the mean") +
-            " of " + short_power(pair.target) + ": " + pair.method + " at h = " + rounded(pair.h) +
-            " with count " + std::to_string(pair.count) +
-            (r.sampling.modes.empty() ? "" : " and " + std::to_string(pair.n_modes) + " modes") +
-            ", error " + rounded(pair.error) + ", " + rounded_seconds(pair.seconds) + " of CPU. ";
+        text += pair.method + " at h = " + rounded(pair.h) + " with count " +
+                std::to_string(pair.count) + words_of_modes(r, pair.n_modes) +
+                " is the cheapest choice with a relative " + (is_own(r) ? "difference" : "error") +
+                " of the mean below " + short_power(pair.target) + ": error " +
+                rounded(pair.error) + " [unit of the field], " + rounded_seconds(pair.seconds) +
+                " of CPU time. ";
       }
-      for (const std::string &fault : faults)
-        text += "EXPECTED: " + fault + ". ";
-      if (const SetStatistics *const set = best(r); set != nullptr && r.cheapest.empty())
-        for (const auto &[name, s] : set->quantities)
-          if (name.size() > 2 && name.compare(0, 2, "K ") == 0)
-            text +=
-                "Mean of " + name + " " + rounded(s.mean) +
-                (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
-                (s.standard_error > 0
-                     ? ", standard error " + rounded(s.standard_error) + ", with 95 % confidence " +
-                           rounded(s.mean - s.confidence) + " to " + rounded(s.mean + s.confidence)
-                     : "") +
-                ". ";
-      return text.empty() ? "All samples are there." : text;
+      else
+      {
+        const std::string means = mean_words(r);
+        text += means.empty() ? least_error_words(r) : means;
+      }
+      for (std::size_t i = 0; i < faults.size(); ++i)
+        text += (i == 0 ? "Not as expected: " : "; ") + faults[i] +
+                (i + 1 == faults.size() ? ". " : "");
+      return text.empty() ? "All samples have been computed." : text;
     }
 
     /// A sentence for each method and level.
@@ -156,14 +213,14 @@ namespace plumbline::report
       data["charts"] = page::charts(sampling_charts(r), dir, "sample");
       if (has_damage_maps(r))
         data["charts"].push_back(page::figure(
-            {dir / "sample/damage.svg", "damage-", "Where bonds are broken",
-             "Mean and deviation over the samples of the largest set, of the part of each node's "
-             "bonds that is broken or cut." +
+            {dir / "sample/damage.svg", "damage-", "Damage: broken bonds",
+             "Mean and standard deviation, over the samples of the largest set, of the fraction of "
+             "each node's bonds that is broken or cut." +
                  std::string(best(r)->negative_part > 0
-                                 ? " Where the variance is negative it has no root, and the "
-                                   "deviation is drawn as 0."
+                                 ? " Where the variance is negative, the deviation is drawn as 0."
                                  : ""),
              "Picture", "sample/damage.svg"}));
+      data["has_results"] = !r.findings.empty() || !data["charts"].empty();
       data["own"] = is_own(r) ? words_of_own : "";
       data["fields"] = page::table(sampling_field_table(r));
       data["cheapest"] = page::table(sampling_cheapest_table(r));

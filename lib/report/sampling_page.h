@@ -18,6 +18,9 @@ namespace plumbline::report
   /// A row for each quantity of each method at its finest level, over each set.
   Table sampling_quantity_table(const study::SamplingResults &results);
 
+  /// Whether a deviation is round-off.
+  bool is_constant(const uq::Statistics &statistics);
+
   /// A row for each pair of h and set that reaches an error of the mean most cheaply.
   Table sampling_cheapest_table(const study::SamplingResults &results);
 

@@ -19,8 +19,18 @@ namespace plumbline::report
 
     std::vector<Cell> names(const CaseStatistics &one)
     {
-      return {text_cell(one.of.method), text_cell(one.of.problem), text_cell(one.of.series),
-              number_cell(one.of.h)};
+      return {text_cell(one.of.method), known(!one.of.problem.empty(), text_cell(one.of.problem)),
+              text_cell(one.of.series), number_cell(one.of.h)};
+    }
+
+    Cell deviation_cell(const uq::Statistics &s)
+    {
+      if (!s.deviation())
+        return text_cell("unknown: variance " + rounded(s.variance));
+      Cell cell = number_cell(*s.deviation());
+      if (is_constant(s) && *s.deviation() > 0)
+        cell.text = "round-off";
+      return cell;
     }
 
     /// Only where sets differ by them.
@@ -44,6 +54,11 @@ namespace plumbline::report
     }
   } // namespace
 
+  bool is_constant(const uq::Statistics &s)
+  {
+    return s.deviation() && *s.deviation() <= round_off * std::abs(s.mean);
+  }
+
   Table sampling_field_table(const SamplingResults &results)
   {
     Table table;
@@ -60,7 +75,7 @@ namespace plumbline::report
                      "error of the mean",
                      "error of the deviation",
                      "standard error",
-                     "noise",
+                     Column("‖w‖₂", {"noise"}),
                      "CPU seconds"};
     for (const CaseStatistics &one : results.cases)
       for (const SetStatistics &set : one.sets)
@@ -86,11 +101,20 @@ namespace plumbline::report
   Table sampling_quantity_table(const SamplingResults &results)
   {
     Table table;
-    table.columns = {"method",    "problem",        "series",
-                     "h",         "quantity",       "modes",
-                     "count",     "samples",        "mean",
-                     "deviation", "standard error", Column("mean, 95 %", {"mean from", "mean to"}),
-                     "least",     "largest"};
+    table.columns = {"method",
+                     "problem",
+                     "series",
+                     "h",
+                     "quantity",
+                     "modes",
+                     "count",
+                     "samples",
+                     "mean",
+                     "deviation",
+                     "standard error",
+                     Column("mean, 95 %", {"mean from", "mean to"}),
+                     Column("minimum", {"least"}),
+                     Column("maximum", {"largest"})};
     for (const CaseStatistics &one : results.cases)
     {
       for (const SetStatistics &set : one.sets)
@@ -101,9 +125,7 @@ namespace plumbline::report
           std::vector<Cell> row = names(one);
           for (const Cell &cell :
                {text_cell(name), modes_cell(results, set.n_modes), count_cell(set.count),
-                count_cell(set.n_samples), number_cell(s.mean),
-                s.deviation() ? number_cell(*s.deviation())
-                              : text_cell("unknown: variance " + rounded(s.variance)),
+                count_cell(set.n_samples), number_cell(s.mean), deviation_cell(s),
                 known(s.standard_error > 0, error_cell(s.standard_error)), interval_cell(s),
                 number_cell(s.least), number_cell(s.largest)})
             row.push_back(cell);
@@ -116,7 +138,7 @@ namespace plumbline::report
   Table sampling_cheapest_table(const SamplingResults &r)
   {
     Table table;
-    table.columns = {"relative error of the mean below",
+    table.columns = {"relative error of the mean <",
                      "method",
                      "problem",
                      "series",
@@ -127,7 +149,8 @@ namespace plumbline::report
                      "CPU seconds"};
     for (const study::CheapestPair &pair : r.cheapest)
       table.rows.push_back({text_cell(short_power(pair.target)), text_cell(pair.method),
-                            text_cell(pair.problem), text_cell(pair.series), number_cell(pair.h),
+                            known(!pair.problem.empty(), text_cell(pair.problem)),
+                            text_cell(pair.series), number_cell(pair.h),
                             modes_cell(r, pair.n_modes), count_cell(pair.count),
                             error_cell(pair.error), number_cell(pair.seconds)});
     return without_empty_columns(table);

@@ -60,9 +60,9 @@ namespace plumbline::study
                       largest = "count " + std::to_string(balance.largest);
     if (!balance.enough)
       return text + ": samples still limit the error of the mean, " + error + " at " + largest +
-             ", more than a tenth off that of the count before; take more of them";
-    return text + ": from count " + std::to_string(*balance.enough) +
-           " on more samples do not lower the error of the mean, " + error + " at " + largest +
-           ": what is left is that of h" + (has_modes ? ", or of modes that are left out" : "");
+             "; it differs by more than a tenth from that of the count before. Take more samples";
+    return text + ": beyond count " + std::to_string(*balance.enough) +
+           " more samples do not reduce the error of the mean, " + error + " at " + largest +
+           "; the rest is due to h" + (has_modes ? " or to omitted modes" : "");
   }
 } // namespace plumbline::study

@@ -25,7 +25,8 @@ namespace plumbline::uq
   {
     return std::to_string(spectrum.kept.size()) + " modes hold " +
            base::to_text(100 * spectrum.variance_kept(), 3) +
-           " % of the variance: the field deviates by " + base::to_text(spectrum.deviation, 3) +
-           " where the whole deviates by " + base::to_text(spectrum.whole_deviation, 3);
+           " % of the variance: the standard deviation of the field is " +
+           base::to_text(spectrum.deviation, 3) + " instead of " +
+           base::to_text(spectrum.whole_deviation, 3);
   }
 } // namespace plumbline::uq

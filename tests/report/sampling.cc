@@ -67,6 +67,47 @@ namespace plumbline::report
         << sampling_summary(results, "");
   }
 
+  TEST(SamplingReport, AnswersFirstAndShowsNothingEmpty)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one;
+    one.of.method = "FA";
+    one.of.h = .25;
+    one.is_finest = true;
+    study::SetStatistics set;
+    set.n_samples = 4;
+    set.quantities["runs"] = uq::statistics({0, 0, 1, 1}, {.25, .25, .25, .25}, false);
+    set.quantities["threshold"] =
+        uq::statistics({.9, .9, .9, .9 + 1e-15}, {.25, .25, .25, .25}, false);
+    one.sets = {set};
+    results.cases = {one};
+    const fixture::Folder folder;
+    write_sampling(results, {"runs are 2"}, folder.path());
+    const std::string page = fixture::read(folder.path() / "sample.html"),
+                      answer =
+                          "<p class=\"answer\">Means by FA at h = 0.25 over 4 samples: runs 0.5, "
+                          "deviation 0.5. Not as expected: runs are 2. </p>";
+    EXPECT_LT(page.find(answer), page.find("<section")) << page;
+    EXPECT_EQ(page.find("<h2>Results"), std::string::npos); // there are no charts
+    const Table table = sampling_quantity_table(results);
+    for (const Column &column : table.columns)
+      EXPECT_NE(column.head, "problem");
+    EXPECT_NE(to_csv(table).find(",least,largest"), std::string::npos) << to_csv(table);
+    const auto &row = table.rows.at(1); // constant but for its last digit
+    EXPECT_TRUE(std::any_of(row.begin(), row.end(),
+                            [](const Cell &cell) { return cell.text == "round-off"; }));
+    results.cases[0].sets[0].quantities.clear();
+    results.cases[0].sets[0].mean_error = .125;
+    results.cases[0].sets[0].count = 2;
+    write_sampling(results, {}, folder.path());
+    const std::string other = fixture::read(folder.path() / "sample.html");
+    EXPECT_EQ(other.find("Quantities at the finest"), std::string::npos);
+    EXPECT_NE(other.find("The smallest error of the mean, 0.125 [unit of the field], is that of FA "
+                         "at h = 0.25 with count 2."),
+              std::string::npos)
+        << other;
+  }
+
   TEST(SamplingReport, HasNoDeviationWhereAVarianceIsNegative)
   {
     study::SamplingResults results = sampled();
@@ -151,7 +192,7 @@ namespace plumbline::report
       text.erase(std::unique(text.begin(), text.end(),
                              [](char a, char b) { return a == ' ' && b == ' '; }),
                  text.end());
-      EXPECT_NE(text.find("h = 0.5: from count 2 on more samples do not lower the error"),
+      EXPECT_NE(text.find("h = 0.5: beyond count 2 more samples do not reduce the error"),
                 std::string::npos)
           << text;
       EXPECT_NE(text.find("h = 0.25: samples still limit the error of the mean, 0.005 at count 8"),
@@ -218,7 +259,8 @@ namespace plumbline::report
     EXPECT_EQ(
         to_csv(charts[1].data),
         "method,case,series,h,nu,value\nOPT,,m = 3,0.25,0.5,0.75\nOPT,,m = 3,0.25,0.25,0.125\n");
-    EXPECT_NE(sampling_summary(results, "").find("Nothing is by chance"), std::string::npos);
+    EXPECT_NE(sampling_summary(results, "").find("The variables are not random"),
+              std::string::npos);
     EXPECT_EQ(sampling_summary(results, "").find("noise"), std::string::npos);
     results.variables = {"nu", "a"}; // a chart has room for one
     EXPECT_TRUE(sampling_charts(results).empty());

@@ -88,12 +88,12 @@ TEST(SamplingBalance, IsSaidInASentence)
       find_balance({given(.5, {1, 2, 4}, {.3, .02, .02}), given(.25, {1, 2, 4}, {.3, .02, .005})});
   ASSERT_EQ(balance.size(), 2u);
   EXPECT_EQ(words_of(balance[0], false),
-            "OPT, m = 3, h = 0.5: from count 2 on more samples do not lower the error of the mean, "
-            "0.02 at count 4: what is left is that of h");
+            "OPT, m = 3, h = 0.5: beyond count 2 more samples do not reduce the error of the mean, "
+            "0.02 at count 4; the rest is due to h");
   EXPECT_EQ(words_of(balance[1], false),
-            "OPT, m = 3, h = 0.25: samples still limit the error of the mean, 0.005 at count 4, "
-            "more than a tenth off that of the count before; take more of them");
+            "OPT, m = 3, h = 0.25: samples still limit the error of the mean, 0.005 at count 4; "
+            "it differs by more than a tenth from that of the count before. Take more samples");
   EXPECT_EQ(words_of(balance[0], true),
-            "OPT, m = 3, h = 0.5, modes 0: from count 2 on more samples do not lower the error of "
-            "the mean, 0.02 at count 4: what is left is that of h, or of modes that are left out");
+            "OPT, m = 3, h = 0.5, modes 0: beyond count 2 more samples do not reduce the error of "
+            "the mean, 0.02 at count 4; the rest is due to h or to omitted modes");
 }

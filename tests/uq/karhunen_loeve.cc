@@ -338,8 +338,8 @@ TEST(Spectrum, tells_what_modes_hold)
   EXPECT_NEAR(spectrum.deviation, std::sqrt(1.5), 1e-15);
   EXPECT_NEAR(spectrum.whole_deviation, std::sqrt(2.), 1e-15);
   EXPECT_FALSE(spectrum.is_grey());
-  EXPECT_EQ(words_of(spectrum), "2 modes hold 75 % of the variance: the field deviates by 1.22 "
-                                "where the whole deviates by 1.41");
+  EXPECT_EQ(words_of(spectrum), "2 modes hold 75 % of the variance: the standard deviation of the "
+                                "field is 1.22 instead of 1.41");
   expansion.variance = {0, 0}; // nothing to hold
   expansion.eigenvalue = {0, 0};
   EXPECT_EQ(spectrum_of(expansion).variance_kept(), 1);
