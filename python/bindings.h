@@ -9,6 +9,7 @@ namespace plumbline::python
   void add_rules(pybind11::module_ &module);
   void add_problem(pybind11::module_ &module);
   void add_check(pybind11::module_ &module);
+  void add_matrix(pybind11::module_ &module);
   void add_moduli(pybind11::module_ &module);
   void add_space(pybind11::module_ &module);
   void add_studies(pybind11::module_ &module);

@@ -104,6 +104,7 @@ PYBIND11_MODULE(_core, module)
   add_rules(module);
   add_problem(module);
   add_check(module);
+  add_matrix(module);
   add_moduli(module);
   add_space(module);
   add_studies(module);

@@ -5,7 +5,6 @@
 #include "method/lattice_discretisation.h"
 #include "problem/builder.h"
 #include "problem/inside.h"
-#include "problem/needs.h"
 #include "reading.h"
 #include "rule.h"
 #include "study/reference_estimate.h"
@@ -220,20 +219,6 @@ namespace plumbline::python
       const problem::Problem<2> &problem() const { return of->problem; }
       unsigned int n_components() const { return of->problem.n_components; }
     };
-
-    void refuse_unless_able(const method::Method &method, const problem::Problem<2> &problem)
-    {
-      std::string missing;
-      const method::Capabilities can = method.can();
-      for (const auto need : problem::needs(problem))
-        if (can.count(need) == 0)
-          missing += (missing.empty() ? "" : ", ") + base::word(need);
-      const std::string why =
-          missing.empty() ? method.why_not(problem) : "it is not made for: " + missing;
-      if (!why.empty())
-        throw InputError("method '" + method.name() + "' cannot solve this problem: " + why +
-                         "; choose another one (plumbline.methods())");
-    }
 
     Solved solve(std::shared_ptr<const Case> of, const py::object &method)
     {

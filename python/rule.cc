@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/rules/families.h"
+#include "problem/needs.h"
 #include "scene/values.h"
 #include "study/preflight.h"
 
@@ -250,6 +251,29 @@ namespace plumbline::python
                        " is no method; give a name (plumbline.methods()) or a plumbline.Rule");
     return study::find_method(app::all_methods(), scene::method_name(given.cast<std::string>()),
                               "method");
+  }
+
+  void refuse_unless_able(const method::Method &method, const problem::Problem<2> &problem)
+  {
+    std::string missing;
+    const method::Capabilities can = method.can();
+    for (const auto need : problem::needs(problem))
+      if (can.count(need) == 0)
+        missing += (missing.empty() ? "" : ", ") + base::word(need);
+    const std::string why =
+        missing.empty() ? method.why_not(problem) : "it is not made for: " + missing;
+    if (!why.empty())
+      throw InputError("method '" + method.name() + "' cannot solve this problem: " + why +
+                       "; choose another one (plumbline.methods())");
+  }
+
+  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name)
+  {
+    auto method = to_method(py::str(name));
+    if (method->can().count(method::Capability::space) == 0)
+      throw InputError("method '" + name +
+                       "' is for the plane; choose a meshfree rule, Q1 or DGQ0");
+    return method;
   }
 
   void add_rules(py::module_ &module)

@@ -4,6 +4,7 @@
 #include "geometry/node_cells.h"
 #include "meshfree/rules/rules.h"
 #include "method/method.h"
+#include "problem/problem.h"
 
 namespace plumbline::python
 {
@@ -34,4 +35,11 @@ namespace plumbline::python
   /// @param given  a name of the library's methods, or a rule of Python
   /// @throws InputError  unknown name; the message lists the known ones
   std::shared_ptr<const method::Method> to_method(const py::object &given);
+
+  /// @throws InputError  the method cannot solve the problem
+  void refuse_unless_able(const method::Method &method, const problem::Problem<2> &problem);
+
+  /// A method for three dimensions by its name.
+  /// @throws InputError  unknown name, or a method for the plane alone
+  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name);
 } // namespace plumbline::python

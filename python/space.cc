@@ -142,10 +142,7 @@ namespace plumbline::python
 
     SolvedInSpace solve(std::shared_ptr<const ProblemInSpace> of, const std::string &name)
     {
-      const auto method = to_method(py::str(name));
-      if (method->can().count(method::Capability::space) == 0)
-        throw InputError("method '" + name +
-                         "' is for the plane; choose a meshfree rule, Q1 or DGQ0");
+      const auto method = to_method_in_space(name);
       const py::gil_scoped_release others;
       return {of, name, analysis::solve(*method, *of)};
     }

@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "geometry/cell_counts.h"
+#include "method/stencil_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -353,6 +355,31 @@ namespace plumbline::method
       { return (*on_cells)(x, component); };
       return field;
     };
+    return result;
+  }
+
+  LinearEquations<3> BoxDiscretisation::equations(const problem::Problem<3> &problem) const
+  {
+    StencilRows made = make_rows(stencil_, {nodes_.n, 1, n_components_,
+                                            [&](unsigned int, const std::array<int, 3> &at)
+                                            { return nodes_.free(at); }});
+    LinearEquations<3> result;
+    result.n_components = n_components_;
+    result.n_free = made.n_free;
+    result.rows = std::move(made.rows);
+    for (const StencilRows::Node &node : made.nodes)
+      result.nodes.push_back(place(node.position));
+    const Vector over_nodes = tested(problem.load);
+    for (std::size_t k = 0; k < made.n_free; ++k)
+      for (unsigned int c = 0; c < n_components_; ++c)
+        result.load.push_back(
+            over_nodes[c * nodes_.n_positions() +
+                       geometry::number_within(made.nodes[k].position, nodes_.n)]);
+    for (std::size_t k = made.n_free; k < result.nodes.size(); ++k)
+      for (unsigned int c = 0; c < n_components_; ++c)
+        result.constraint.push_back(problem.constraint.value(result.nodes[k], c));
+    if (is_collocated())
+      result.volumes.assign(made.n_free, std::pow(lattice_.h(), 3));
     return result;
   }
 

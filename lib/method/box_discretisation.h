@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method/discretisation_in_space.h"
+#include "method/linear_equations.h"
 
 #include <array>
 #include <functional>
@@ -26,7 +27,7 @@ namespace plumbline::method
 
   /// A problem on a union of boxes in space, as both families of methods have it: one stencil for
   /// all nodes, the constraint on those that are not free. A state has the shape of the BoxNodes.
-  class BoxDiscretisation : public DiscretisationInSpace
+  class BoxDiscretisation : public DiscretisationInSpace, public HasLinearEquations<3>
   {
   public:
     /// @throws NumericalError  no node is free
@@ -35,6 +36,7 @@ namespace plumbline::method
 
     std::size_t n_unknowns() const override;
     Data data(const problem::Problem<3> &problem) const override;
+    LinearEquations<3> equations(const problem::Problem<3> &problem) const override;
 
     /// @throws NumericalError  the stencil is not symmetric
     std::unique_ptr<algebra::LinearSystem> tangent() const override;
@@ -47,6 +49,9 @@ namespace plumbline::method
     const algebra::Stencil &stencil() const { return stencil_; }
 
   private:
+    /// Row i states the equation at node i; else rows are tested by shape functions.
+    virtual bool is_collocated() const = 0;
+
     /// The mass matrix of density 1.
     virtual algebra::Stencil mass_stencil() const = 0;
 

@@ -2,6 +2,7 @@
 
 #include "algebra/sparse.h"
 #include "method/lattice_motion.h"
+#include "method/stencil_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,33 @@ namespace plumbline::method
     result.load -= collar_action(stencil_, nodes_, around->values);
     result.field = [this, around, margin](const Vector &u)
     { return field(merge(nodes_, u, *around, margin)); };
+    return result;
+  }
+
+  LinearEquations<2> LatticeDiscretisation::equations(const problem::Problem<2> &problem) const
+  {
+    StencilRows made = make_rows(stencil_, {{nodes_.n[0], nodes_.n[1], 1},
+                                            nodes_.n_families(),
+                                            nodes_.n_components,
+                                            [&](unsigned int family, const std::array<int, 3> &at)
+                                            { return nodes_.free(family, at[0], at[1]); }});
+    LinearEquations<2> result;
+    result.n_components = nodes_.n_components;
+    result.n_free = made.n_free;
+    result.rows = std::move(made.rows);
+    for (const StencilRows::Node &node : made.nodes)
+    {
+      const auto place = nodes_.place(node.family, node.position[0], node.position[1]);
+      result.nodes.push_back(lattice_.point(place[0], place[1]));
+    }
+    const Vector over_nodes = load(problem);
+    for (const std::size_t position : algebra::free_positions(nodes_))
+      result.load.push_back(over_nodes[position]);
+    for (std::size_t k = result.n_free; k < result.nodes.size(); ++k)
+      for (unsigned int c = 0; c < result.n_components; ++c)
+        result.constraint.push_back(problem.constraint.value(result.nodes[k], c));
+    if (is_collocated())
+      result.volumes.assign(result.n_free, lattice_.h() * lattice_.h());
     return result;
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method/discretisation.h"
+#include "method/linear_equations.h"
 #include "method/method.h"
 
 namespace plumbline::method
@@ -18,7 +19,7 @@ namespace plumbline::method
 
   /// A translation-invariant problem on a lattice, as both sides have it: one stencil for all
   /// nodes, the constraint on those that are not free. A state has the shape of the NodeSet.
-  class LatticeDiscretisation : public Discretisation
+  class LatticeDiscretisation : public Discretisation, public HasLinearEquations<2>
   {
   public:
     /// @param mass  as above
@@ -28,6 +29,7 @@ namespace plumbline::method
     std::size_t n_unknowns() const override { return nodes_.n_unknowns(); }
     CaseData data(const problem::Problem<2> &problem) const override;
     std::unique_ptr<algebra::LinearSystem> tangent() const override;
+    LinearEquations<2> equations(const problem::Problem<2> &problem) const override;
 
     /// Rows are there up to 2e7 entries.
     DiscreteOperator matrix() const override
@@ -46,6 +48,9 @@ namespace plumbline::method
   private:
     virtual Vector
     load(const problem::Problem<2> &problem) const = 0; ///< over the nodes, 0 if not free
+
+    /// Row i states the equation at node i; else rows are tested by shape functions.
+    virtual bool is_collocated() const { return true; }
 
     /// The mass matrix; the masses of the families unless a method has a consistent one.
     virtual algebra::Stencil mass_stencil() const;

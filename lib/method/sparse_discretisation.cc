@@ -30,6 +30,30 @@ namespace plumbline::method
     return {std::move(rows), std::move(constrained)};
   }
 
+  algebra::CsrMatrix join(const algebra::CsrMatrix &free, const algebra::CsrMatrix &constrained)
+  {
+    const auto n_free = static_cast<unsigned int>(free.n_rows());
+    algebra::CsrMatrix rows;
+    rows.start.assign(1, 0);
+    rows.column.reserve(free.column.size() + constrained.column.size());
+    rows.value.reserve(rows.column.capacity());
+    for (std::size_t row = 0; row < free.n_rows(); ++row)
+    {
+      for (std::size_t k = free.start[row]; k < free.start[row + 1]; ++k)
+      {
+        rows.column.push_back(free.column[k]);
+        rows.value.push_back(free.value[k]);
+      }
+      for (std::size_t k = constrained.start[row]; k < constrained.start[row + 1]; ++k)
+      {
+        rows.column.push_back(n_free + constrained.column[k]);
+        rows.value.push_back(constrained.value[k]);
+      }
+      rows.start.push_back(rows.column.size());
+    }
+    return rows;
+  }
+
   void subtract_constrained(const algebra::CsrMatrix &constrained,
                             const std::vector<double> &values, Vector &load)
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method/discretisation.h"
+#include "method/linear_equations.h"
 #include "method/method.h"
 
 namespace plumbline::method
@@ -16,13 +17,16 @@ namespace plumbline::method
   /// Part the columns of rows: those from n_free on are of constrained unknowns.
   PartitionedRows part(algebra::CsrMatrix rows, std::size_t n_free);
 
+  /// Undo part().
+  algebra::CsrMatrix join(const algebra::CsrMatrix &free, const algebra::CsrMatrix &constrained);
+
   /// load -= constrained × values.
   void subtract_constrained(const algebra::CsrMatrix &constrained,
                             const std::vector<double> &values, Vector &load);
 
   /// A problem whose rows differ from node to node, as both sides have it: a sparse matrix that the
   /// communicator makes together. A state is numbered node by node.
-  class SparseDiscretisation : public Discretisation
+  class SparseDiscretisation : public Discretisation, public HasLinearEquations<2>
   {
   public:
     /// What the scene chooses is added to the options given.

@@ -20,6 +20,8 @@ namespace plumbline::meshfree
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
     private:
+      bool is_collocated() const override { return true; }
+
       algebra::Stencil mass_stencil() const override
       {
         algebra::Stencil mass(stencil().n_blocks(), 0);

@@ -1,4 +1,6 @@
 #include "meshfree/discretisations.h"
+
+#include "base/error.h"
 #include "meshfree/scattered/double_well_motion.h"
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/state_based_operator.h"
@@ -63,6 +65,22 @@ namespace plumbline::meshfree
           result.tip_forces = [this, constrained = collar(problem), horizon = problem.horizon()](
                                   const Vector &u) { return tip_forces(u, constrained, horizon); };
         return result;
+      }
+
+      method::LinearEquations<2> equations(const problem::Problem<2> &problem) const override
+      {
+        if (is_mixed_)
+          throw InputError("the mixed formulation (Solver/dilatation = mixed) has unknowns besides "
+                           "the displacements; write condensed");
+        Vector load(static_cast<unsigned int>(n_unknowns()));
+        add_load(problem, load);
+        return {n_components_,
+                cells_->nodes,
+                cells_->n_free,
+                method::join(free(), constrained()),
+                {load.begin(), load.end()},
+                collar(problem),
+                masses()};
       }
 
       method::DiscreteOperator matrix() const override

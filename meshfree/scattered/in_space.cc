@@ -14,7 +14,7 @@ namespace plumbline::meshfree
   namespace
   {
     /// A sparse matrix with one row for each component of a node.
-    class RuleOnNodes : public method::DiscretisationInSpace
+    class RuleOnNodes : public method::DiscretisationInSpace, public method::HasLinearEquations<3>
     {
     public:
       RuleOnNodes(const Families<3> &families, const problem::Problem<3> &problem)
@@ -52,6 +52,22 @@ namespace plumbline::meshfree
         return result;
       }
 
+      method::LinearEquations<3> equations(const problem::Problem<3> &problem) const override
+      {
+        method::LinearEquations<3> result;
+        result.n_components = n_components_;
+        result.nodes = cells_->nodes;
+        result.n_free = cells_->n_free;
+        result.rows = method::join(*free_, constrained_);
+        for (std::size_t i = 0; i < cells_->n_free; ++i)
+          for (unsigned int c = 0; c < n_components_; ++c)
+            result.load.push_back(problem.load(cells_->nodes[i], c));
+        result.constraint = constraint_values(problem);
+        const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
+        result.volumes.assign(cells_->area.begin(), cells_->area.begin() + n);
+        return result;
+      }
+
       std::unique_ptr<algebra::LinearSystem> tangent() const override
       {
         return std::make_unique<algebra::SparseSystem>(free_, options_,
@@ -69,21 +85,37 @@ namespace plumbline::meshfree
         std::vector<double> middle; ///< of each component
       };
 
+      std::vector<char> reached() const
+      {
+        std::vector<char> is_reached((cells_->size() - cells_->n_free) * n_components_);
+        for (const unsigned int column : constrained_.column)
+          is_reached[column] = 1;
+        return is_reached;
+      }
+
+      /// The constraint at the nodes that bonds reach, 0 at others.
+      std::vector<double> constraint_values(const problem::Problem<3> &problem) const
+      {
+        const std::vector<char> is_reached = reached();
+        std::vector<double> values(is_reached.size());
+        for (std::size_t k = 0; k < values.size(); ++k)
+          if (is_reached[k] != 0)
+            values[k] = problem.constraint.value(cells_->nodes[cells_->n_free + k / n_components_],
+                                                 k % n_components_);
+        return values;
+      }
+
       Surroundings surroundings(const problem::Problem<3> &problem) const
       {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         Surroundings around;
-        around.values.assign((cells_->size() - cells_->n_free) * n_components_, 0);
-        std::vector<char> is_reached(around.values.size());
-        for (const unsigned int column : constrained_.column)
-          is_reached[column] = 1;
+        around.values = constraint_values(problem);
+        const std::vector<char> is_reached = reached();
         std::vector<double> low(n_components_, infinity), high(n_components_, -infinity);
         for (std::size_t k = 0; k < around.values.size(); ++k)
           if (is_reached[k] != 0)
           {
             const unsigned int c = k % n_components_;
-            const Point<3> &x = cells_->nodes[cells_->n_free + k / n_components_];
-            around.values[k] = problem.constraint.value(x, c);
             low[c] = std::min(low[c], around.values[k]);
             high[c] = std::max(high[c], around.values[k]);
           }

@@ -1,9 +1,10 @@
 """Three dimensions: kernels, weights of rules, problems on boxes of cubes, the check of weights."""
 from . import _core
 from ._checks import Weights
+from ._matrix import to_matrix as _to_matrix
 from ._core import SpaceKernel as Kernel, SpaceProblem as Problem, SpaceSolution as Solution
 
-__all__ = ["Kernel", "Problem", "Solution", "check", "solve", "weights"]
+__all__ = ["Kernel", "Problem", "Solution", "check", "matrix", "solve", "weights"]
 
 
 def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None):
@@ -35,6 +36,17 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None
 def solve(problem, method):
     """Solve a space.Problem by a meshfree rule, "Q1" or "DGQ0": a space.Solution."""
     return _core.solve_in_space(problem, method)
+
+
+def matrix(problem, method, h=None):
+    """The discrete operator of a method on a space.Problem, with its load and nodes.
+
+    method  a meshfree rule, "Q1" or "DGQ0"
+    h       side of cubes other than the problem's own [length]; not with scattered nodes
+
+    Returns a plumbline.Matrix, whose help gives shapes, units, the sign, and the order of unknowns.
+    """
+    return _to_matrix(_core.matrix_in_space(problem, method, h))
 
 
 def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),

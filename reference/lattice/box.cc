@@ -36,6 +36,8 @@ namespace plumbline::reference
       }
 
     private:
+      bool is_collocated() const override { return false; }
+
       algebra::Stencil mass_stencil() const override
       {
         return reference::mass_stencil<3>(shapes_, stencil().n_blocks(), lattice().h());

@@ -218,6 +218,8 @@ namespace plumbline::reference
                                       algebra::Symbol(small).range().largest, n_more);
       }
 
+      bool is_collocated() const override { return false; }
+
       Vector load(const problem::Problem<2> &problem) const override
       {
         return load_vector(problem, shapes_, nodes());

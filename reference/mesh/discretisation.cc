@@ -163,6 +163,21 @@ namespace plumbline::reference
         return result;
       }
 
+      method::LinearEquations<2> equations(const problem::Problem<2> &problem) const override
+      {
+        method::LinearEquations<2> result;
+        result.n_components = problem.n_components;
+        for (std::size_t dof = 0; dof < space_->n_dofs(); ++dof)
+          result.nodes.push_back(space_->support(dof));
+        result.n_free = space_->n_free();
+        result.rows = method::join(free(), constrained());
+        const Vector load = load_vector(problem, *space_, *cells_, communicator());
+        result.load.assign(load.begin(), load.end());
+        result.constraint = constrained_values(problem, *space_);
+        result.has_quadrature_error = has_quadrature_error();
+        return result;
+      }
+
       method::DiscreteOperator matrix() const override
       {
         method::DiscreteOperator result;

@@ -22,10 +22,20 @@ def test_the_example_of_the_readme_runs(root, capsys):
 
 def test_the_example_of_moduli_runs(root, capsys):
     text = (root / "python/README.md").read_text()
-    _, example, _ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    _, example, *_ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
     own, rule = map(float, capsys.readouterr().out.split())
     assert own == rule and abs(own - 209.7) < .05
+
+
+def test_the_example_of_matrices_runs(root, capsys, tmp_path, monkeypatch):
+    text = (root / "python/README.md").read_text()
+    _, _, example, _ = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(example, "README.md", "exec"), {})
+    words, residual = capsys.readouterr().out.rsplit(maxsplit=1)
+    assert "of IPA-AC-R2: 256 x" in words and float(residual) < 1e-9
+    assert plumbline.load_matrix("equations.npz").method == "IPA-AC-R2"
 
 
 def test_the_example_in_space_runs(root, capsys):
