@@ -19,6 +19,27 @@ class Weights(NamedTuple):
     area: np.ndarray         # of the neighbour's cell, or of its part in the ball, shape (n,)
     offsets: Optional[np.ndarray] = None  # of lattices: xi / h in whole numbers, shape (n, 2)
 
+    def save(self, nodes_file, bonds_file, nodes, volumes):
+        """Write nodes and bonds as CSV with 17 digits, which `plumbline check` reads.
+
+        nodes    those that weights() was given, shape (n, 2) or (n, 3) [length]
+        volumes  of their cells, shape (n,); ids in the files are indices from 0
+        """
+        if self.i is None:
+            raise _core.InputError("save: these are the weights of one family on a lattice; give "
+                                   "weights() the nodes and their boxes")
+        nodes, volumes = np.asarray(nodes, float), np.asarray(volumes, float)
+        if nodes.ndim != 2 or nodes.shape[1] != self.xi.shape[1] or volumes.shape != nodes.shape[:1]:
+            raise _core.InputError(f"save: nodes has the shape {nodes.shape} and volumes "
+                                   f"{volumes.shape}; give (n, {self.xi.shape[1]}) and (n,)")
+        axes = "xyz"[:nodes.shape[1]]
+        np.savetxt(nodes_file, np.column_stack([np.arange(len(nodes)), nodes, volumes]),
+                   fmt="%d" + ",%.17g" * (len(axes) + 1), comments="",
+                   header=",".join(["id", *axes, "volume"]))
+        np.savetxt(bonds_file, np.column_stack([self.i, self.j, self.w, self.points]),
+                   fmt="%d,%d" + ",%.17g" * (len(axes) + 1), comments="",
+                   header=",".join(["i", "j", "weight", *("q" + one for one in axes)]))
+
 
 def weights(rule, kernel, h=None, *, nodes=None, volumes=None, boxes=None, exclude=None):
     """The bonds that a rule gives: one family on a lattice, or the families of all nodes.

@@ -1,4 +1,7 @@
 """Weights in arrays have the moments that the rules promise."""
+import os
+import subprocess
+
 import numpy as np
 import pytest
 from conftest import lattice
@@ -96,3 +99,23 @@ def test_a_rule_in_python_can_leave_out_bonds_and_move_points():
     half = plumbline.Rule("half", lambda xi, area: (np.where(xi[:, 0] > 0, area, 0), xi / 2))
     w = plumbline.weights(half, KERNEL, H)
     assert np.all(w.xi[:, 0] > 0) and len(w.w) == 11 and np.array_equal(w.points, w.xi / 2)
+
+
+def test_saved_weights_are_read_by_the_command(root, tmp_path, square):
+    nodes = lattice(16, 3)
+    w = plumbline.weights("IPA-AC-R2", KERNEL, nodes=nodes, boxes=square)
+    w.save(tmp_path / "nodes.csv", tmp_path / "bonds.csv", nodes, np.full(len(nodes), H**2))
+    (tmp_path / "scene.prm").write_text("subsection Kernel\n set type = linear-decay\nend\n"
+                                        "subsection Study\n set m = 3\n set h = 0.0625\nend\n"
+                                        "subsection Problem\n set solution = x*y\nend\n"
+                                        "subsection Methods\n set names = FA\nend\n")
+    ended = subprocess.run([os.environ["PLUMBLINE_COMMAND"], "check", "nodes.csv", "bonds.csv",
+                            "--scene", "scene.prm"], cwd=tmp_path, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "the weights are those of IPA-AC-R2" in ended.stdout
+    found = np.loadtxt(tmp_path / "bonds.csv", delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(found, np.column_stack([w.i, w.j, w.w, w.points]))
+    with pytest.raises(plumbline.InputError, match="one family on a lattice"):
+        plumbline.weights("FA", KERNEL, H).save("a", "b", nodes, nodes[:, 0])
+    with pytest.raises(plumbline.InputError, match="give .n, 2. and .n,."):
+        w.save("a", "b", nodes, nodes)
