@@ -23,10 +23,10 @@ namespace
   constexpr double h = 1;
   constexpr int m = 3;
 
-  meshfree::BondNetwork plate(int n1, int n2)
+  meshfree::BondNetwork<2> plate(int n1, int n2)
   {
     const double length = n1 * h, half = .5 * n2 * h;
-    meshfree::BreakingSolid solid;
+    meshfree::BreakingSolid<2> solid;
     solid.domain.include = {{{0, -half}, {length, half}}};
     solid.grips = {{{0, half - m * h}, {length, half}}, {{0, -half}, {length, m * h - half}}};
     solid.notch = {{{-h, 0}, {std::floor(.25 * n1) * h, 0}}};
@@ -53,7 +53,7 @@ int main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int n1 = argc > 2 ? std::atoi(argv[1]) : 106, n2 = argc > 2 ? std::atoi(argv[2]) : 60;
-  meshfree::BreakingNetwork body(plate(n1, n2), problem::Stretch::linear);
+  meshfree::BreakingNetwork<2> body(plate(n1, n2), problem::Stretch::linear);
   const base::CpuTimer timer;
   const analysis::Growth growth = analysis::grow(body, {});
   const double all = timer.seconds();
@@ -73,21 +73,21 @@ int main(int argc, char **argv)
               milliseconds(work.update_seconds, work.n_updates), work.largest_rank);
   std::printf("residual <= %.1e, energy imbalance <= %.1e\n", residual, imbalance);
 
-  const auto replay = [&](meshfree::BreakingNetwork &again, std::size_t n)
+  const auto replay = [&](meshfree::BreakingNetwork<2> &again, std::size_t n)
   {
     const base::CpuTimer replaying;
     for (std::size_t i = 0; i < n; ++i)
       (void)again.break_bonds(growth.events[i].bonds);
     return replaying.seconds() / static_cast<double>(n);
   };
-  meshfree::BreakingNetwork always(plate(n1, n2), problem::Stretch::linear,
-                                   problem::GrowthSolver::factor, meshfree::Refactor::always);
+  meshfree::BreakingNetwork<2> always(plate(n1, n2), problem::Stretch::linear,
+                                      problem::GrowthSolver::factor, meshfree::Refactor::always);
   const double each = replay(always, std::min<std::size_t>(20, growth.events.size())),
                mean = all / static_cast<double>(growth.events.size());
   std::printf("factored at every event: %.0f ms an event, %.1f times as much\n", 1e3 * each,
               each / mean);
-  meshfree::BreakingNetwork iterated(plate(n1, n2), problem::Stretch::linear,
-                                     problem::GrowthSolver::multigrid);
+  meshfree::BreakingNetwork<2> iterated(plate(n1, n2), problem::Stretch::linear,
+                                        problem::GrowthSolver::multigrid);
   const double iterating = replay(iterated, std::min<std::size_t>(300, growth.events.size()));
   const auto &cycles = iterated.work();
   std::printf("multigrid: %.1f ms an event, %.1f times as much; %lu set-ups of %.0f ms, %.1f "

@@ -98,22 +98,30 @@ namespace plumbline::meshfree
       }
 
       const method::FractureSolver *fracture_solver() const override { return this; }
-      method::BreakableBody breakable_body(const method::BreakingSolid &solid,
-                                           const Kernel<2> &influence, double h,
-                                           geometry::Backend backend, problem::Stretch stretch,
-                                           problem::GrowthSolver solver) const override
+      method::BreakableBody<2> breakable_body(const method::BreakingSolid<2> &solid,
+                                              const Kernel<2> &influence, double h,
+                                              geometry::Backend backend, problem::Stretch stretch,
+                                              problem::GrowthSolver solver) const override
       {
-        return meshfree::breakable_body(
-            std::make_shared<BreakingNetwork>(
-                make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
-                                  influence, h, backend),
-                stretch, solver),
-            solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back());
+        return make_body(solid, rule_.in_plane, influence, h, backend, stretch, solver);
+      }
+      method::BreakableBody<3> breakable_body(const method::BreakingSolid<3> &solid,
+                                              const Kernel<3> &influence, double h,
+                                              geometry::Backend backend, problem::Stretch stretch,
+                                              problem::GrowthSolver solver) const override
+      {
+        return make_body(solid, in_space(), influence, h, backend, stretch, solver);
       }
       double lattice_toughness(const Kernel<2> &influence, double h,
                                geometry::Backend backend) const override
       {
         return meshfree::lattice_toughness(rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
+                                           influence, h, backend);
+      }
+      double lattice_toughness(const Kernel<3> &influence, double h,
+                               geometry::Backend backend) const override
+      {
+        return meshfree::lattice_toughness(in_space()(physics::deviatoric_kernel(influence, 1)),
                                            influence, h, backend);
       }
 
@@ -125,16 +133,15 @@ namespace plumbline::meshfree
             strip, rule_.in_plane(physics::deviatoric_kernel(influence, 1)), influence);
       }
 
-      std::optional<method::BreakableBody> breakable_strip(const method::RiceStrip &strip,
-                                                           const physics::Lame &lame,
-                                                           problem::SurfaceTerms terms,
-                                                           const Kernel<2> &influence,
-                                                           geometry::Backend backend) const override
+      std::optional<method::BreakableBody<2>>
+      breakable_strip(const method::RiceStrip &strip, const physics::Lame &lame,
+                      problem::SurfaceTerms terms, const Kernel<2> &influence,
+                      geometry::Backend backend) const override
       {
-        BreakingSolid solid = make_strip(strip, lame, influence.horizon());
+        BreakingSolid<2> solid = make_strip(strip, lame, influence.horizon());
         solid.surface_terms = terms;
         return meshfree::breakable_body(
-            std::make_shared<BreakingNetwork>(
+            std::make_shared<BreakingNetwork<2>>(
                 make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
                                   influence, strip.h, backend),
                 problem::Stretch::linear),
@@ -147,6 +154,32 @@ namespace plumbline::meshfree
       }
 
     private:
+      template <int dim>
+      using MakeQuadrature = std::function<NeighbourhoodQuadrature<dim>(const Kernel<dim> &)>;
+
+      /// @throws InputError  the rule has no weights in space
+      const MakeQuadrature<3> &in_space() const
+      {
+        if (!rule_.in_space)
+          throw InputError("Methods/names = " + rule_.name +
+                           " has no weights in three dimensions; write FA or OPT");
+        return rule_.in_space;
+      }
+
+      template <int dim>
+      static method::BreakableBody<dim>
+      make_body(const method::BreakingSolid<dim> &solid, const MakeQuadrature<dim> &quadrature,
+                const Kernel<dim> &influence, double h, geometry::Backend backend,
+                problem::Stretch stretch, problem::GrowthSolver solver)
+      {
+        return meshfree::breakable_body(
+            std::make_shared<BreakingNetwork<dim>>(
+                make_bond_network(solid, quadrature(physics::deviatoric_kernel(influence, 1)),
+                                  influence, h, backend),
+                stretch, solver),
+            solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back());
+      }
+
       std::vector<WellBond> bonds_of(const physics::DoubleWell &law, double h,
                                      geometry::Backend backend) const
       {

@@ -35,7 +35,7 @@ namespace plumbline::algebra
       return std::min(.02, .7 * dealii::Utilities::MPI::min(*low, ranges.communicator.mpi));
     }
 
-    /// Modes of little energy: the constants and, where places are known, the rotation.
+    /// Modes of little energy: the constants and, where places are known, the rotations.
     struct NearNullSpace
     {
       int dimension;
@@ -43,29 +43,36 @@ namespace plumbline::algebra
                                   ///< no rows, but ML wants values of it
     };
 
+    template <int dim>
     NearNullSpace near_null_space(const OwnedRanges &ranges, unsigned int n_components,
-                                  const std::vector<dealii::Point<2>> &nodes)
+                                  const std::vector<dealii::Point<dim>> &nodes)
     {
-      const bool has_rotation = n_components == 2 && !nodes.empty();
-      const std::size_t n = ranges.own_size, dimension = n_components + (has_rotation ? 1 : 0);
+      constexpr std::size_t n_planes = dim * (dim - 1) / 2;
+      const bool has_rotations = n_components == dim && !nodes.empty();
+      const std::size_t n = ranges.own_size,
+                        dimension = n_components + (has_rotations ? n_planes : 0);
       NearNullSpace modes{static_cast<int>(dimension), std::vector<double>(dimension * n + 1)};
       for (std::size_t i = 0; i < n; ++i)
       {
         const std::size_t node = (ranges.own_first + i) / n_components,
                           c = (ranges.own_first + i) % n_components;
         modes.values[c * n + i] = 1;
-        if (has_rotation)
-        {
-          const auto arm = nodes[node] - nodes.front();
-          modes.values[2 * n + i] = c == 0 ? -arm[1] : arm[0];
-        }
+        if (!has_rotations)
+          continue;
+        const auto arm = nodes[node] - nodes.front();
+        std::size_t mode = dim;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = d + 1; e < dim; ++e, ++mode)
+            if (c == d || c == e)
+              modes.values[mode * n + i] = c == d ? -arm[e] : arm[d];
       }
       return modes;
     }
   } // namespace
 
+  template <int dim>
   Multigrid::Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
-                       const std::vector<dealii::Point<2>> &nodes)
+                       const std::vector<dealii::Point<dim>> &nodes)
       : entries_(to_trilinos(own, ranges))
   {
     // elliptic, also if not symmetric: measured to be the more robust
@@ -80,4 +87,9 @@ namespace plumbline::algebra
     parameters.set("null space: vectors", modes.values.data());
     cycle_.initialize(entries_, parameters);
   }
+
+  template Multigrid::Multigrid(const CsrMatrix &, const OwnedRanges &, unsigned int,
+                                const std::vector<dealii::Point<2>> &);
+  template Multigrid::Multigrid(const CsrMatrix &, const OwnedRanges &, unsigned int,
+                                const std::vector<dealii::Point<3>> &);
 } // namespace plumbline::algebra

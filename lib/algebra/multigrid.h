@@ -15,11 +15,12 @@ namespace plumbline::algebra
 
     /// @param own           this rank's share of the rows, each with a diagonal entry
     /// @param n_components  unknowns a node, numbered node by node
-    /// @param nodes         places of all nodes, or none: with two components rotations are among
+    /// @param nodes         places of all nodes, or none: with dim components rotations are among
     ///                      the near-null modes then, besides the constants
-    /// @note Collective. What Trilinos throws is thrown.
+    /// @note Collective. What Trilinos throws is thrown. Instantiated for dim = 2 and 3.
+    template <int dim>
     Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
-              const std::vector<dealii::Point<2>> &nodes);
+              const std::vector<dealii::Point<dim>> &nodes);
 
     /// y ≈ A⁻¹ x. @note Collective.
     void vmult(Vector &y, const Vector &x) const { cycle_.vmult(y, x); }

@@ -12,16 +12,17 @@
 namespace plumbline::method
 {
   /// A body whose bonds can break, with what is known of its nodes and bonds.
+  template <int dim>
   struct BreakableBody
   {
     std::shared_ptr<QuasistaticFractureModel> body;
     double h = 0; ///< of the lattice [length]
-    std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness;                       ///< G of each node [force/length]
-    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
+    std::vector<dealii::Point<dim>> nodes;
+    std::vector<double> toughness;                       ///< G of each node [force/length^(dim-1)]
+    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length^(dim-1)]
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
-    dealii::Point<2> notch_tip;
-    bool has_dilatation = false; ///< else bonds are all
+    dealii::Point<2> notch_tip;                          ///< in space along z through the body
+    bool has_dilatation = false;                         ///< else bonds are all
     /// The fraction of each node's bonds that is broken or cut.
     std::function<std::vector<double>(const std::vector<std::size_t> &broken)> damage;
   };

@@ -2,6 +2,7 @@
 
 #include "geometry/ball_cell.h"
 #include "geometry/cracks.h"
+#include "geometry/of_dimension.h"
 #include "method/breakable_body.h"
 #include "physics/kernel.h"
 #include "physics/state_based.h"
@@ -13,18 +14,20 @@
 
 namespace plumbline::method
 {
-  /// What a body whose bonds break is made of.
+  /// What a body whose bonds break is made of. In space lines of x and y stand for the surfaces
+  /// that they sweep along z through the body, and surface terms are not known.
+  template <int dim>
   struct BreakingSolid
   {
-    geometry::Domain domain; ///< with its grips
-    std::vector<geometry::Box>
+    geometry::RegionOf<dim> domain; ///< with its grips
+    std::vector<geometry::BoxOf<dim>>
         grips; ///< nodes are constrained whose cell shares area with one of them
-    std::vector<geometry::Box> unbreaking; ///< bonds with an end in them do not break
-    std::vector<geometry::Polyline> notch; ///< what it is cut by from the beginning
-    std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &)>
+    std::vector<geometry::BoxOf<dim>> unbreaking; ///< bonds with an end in them do not break
+    std::vector<geometry::Polyline> notch;        ///< what it is cut by from the beginning
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
         constrained; ///< u in the grips at load 1
-    std::function<physics::Lame(const dealii::Point<2> &)> material;
-    std::function<double(const dealii::Point<2> &)> toughness; ///< G [force/length]
+    std::function<physics::Lame(const dealii::Point<dim> &)> material;
+    std::function<double(const dealii::Point<dim> &)> toughness; ///< G [force/length^(dim-1)]
     /// Published, none or consistent, see meshfree::SurfaceForces; else the forces have an energy.
     problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
     bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
@@ -32,7 +35,7 @@ namespace plumbline::method
     struct Interface
     {
       geometry::Polyline line;
-      double toughness = 0; ///< [force/length]
+      double toughness = 0; ///< [force/length^(dim-1)]
     };
     std::vector<Interface> interfaces = {};
     double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion
@@ -44,17 +47,26 @@ namespace plumbline::method
   public:
     virtual ~FractureSolver() = default;
 
-    /// @param influence  1/r, ∫K|ξ|² = 2
+    /// @param influence  1/r, ∫K|ξ|² = dim
     /// @throws InputError  h that does not fit the boxes; grips without a node; G <= 0; a notch
     /// through a node
     /// @throws NumericalError  the body is a mechanism
-    virtual BreakableBody breakable_body(const BreakingSolid &solid,
-                                         const physics::Kernel<2> &influence, double h,
-                                         geometry::Backend backend, problem::Stretch stretch,
-                                         problem::GrowthSolver solver) const = 0;
+    virtual BreakableBody<2> breakable_body(const BreakingSolid<2> &solid,
+                                            const physics::Kernel<2> &influence, double h,
+                                            geometry::Backend backend, problem::Stretch stretch,
+                                            problem::GrowthSolver solver) const = 0;
+    /// The same in space.
+    /// @throws InputError  also: a rule that has no weights in space
+    virtual BreakableBody<3> breakable_body(const BreakingSolid<3> &solid,
+                                            const physics::Kernel<3> &influence, double h,
+                                            geometry::Backend backend, problem::Stretch stretch,
+                                            problem::GrowthSolver solver) const = 0;
 
-    /// Energy of all bonds across an endless straight line, each at its limit of G = 1, per length.
+    /// Energy of all bonds across an endless straight line, or a plane in space, each at its limit
+    /// of G = 1, per length or area.
     virtual double lattice_toughness(const physics::Kernel<2> &influence, double h,
+                                     geometry::Backend backend) const = 0;
+    virtual double lattice_toughness(const physics::Kernel<3> &influence, double h,
                                      geometry::Backend backend) const = 0;
   };
 } // namespace plumbline::method

@@ -60,11 +60,10 @@ namespace plumbline::method
                                    const physics::Kernel<2> &influence) const = 0;
 
     /// The strip as a body whose bonds, of toughness G = 1, can break; empty: the method has none.
-    virtual std::optional<BreakableBody> breakable_strip(const RiceStrip & /*strip*/,
-                                                         const physics::Lame & /*lame*/,
-                                                         problem::SurfaceTerms /*terms*/,
-                                                         const physics::Kernel<2> & /*influence*/,
-                                                         geometry::Backend /*backend*/) const
+    virtual std::optional<BreakableBody<2>>
+    breakable_strip(const RiceStrip & /*strip*/, const physics::Lame & /*lame*/,
+                    problem::SurfaceTerms /*terms*/, const physics::Kernel<2> & /*influence*/,
+                    geometry::Backend /*backend*/) const
     {
       return {};
     }

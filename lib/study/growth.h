@@ -11,7 +11,7 @@
 // How a crack grows in equilibrium: run, found out and held against what is expected.
 namespace plumbline::study
 {
-  using GrowthModel = method::BreakableBody;
+  using GrowthModel = method::BreakableBody<2>;
 
   struct GrowthPlan
   {

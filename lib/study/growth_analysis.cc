@@ -25,9 +25,9 @@ namespace plumbline::study
   namespace
   {
     /// @param trapping  G is divided by it
-    method::BreakingSolid make_solid(const scene::Scene &scene, double horizon, double trapping)
+    method::BreakingSolid<2> make_solid(const scene::Scene &scene, double horizon, double trapping)
     {
-      method::BreakingSolid solid;
+      method::BreakingSolid<2> solid;
       solid.domain = scene.domain.boxes;
       solid.grips = scene.domain.fixed;
       solid.unbreaking = scene.fracture.unbreaking;

@@ -1,6 +1,7 @@
 #include "meshfree/fracture/bond_network.h"
 
 #include "base/error.h"
+#include "geometry/of_dimension.h"
 #include "meshfree/scattered/damage.h"
 
 #include <deal.II/base/exceptions.h>
@@ -15,113 +16,179 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using NetworkBond = BondNetwork::Bond;
-
     constexpr double endless = std::numeric_limits<double>::infinity();
     constexpr double on_side = 1e-9; // of h: what two boxes share, and how far a node may be out
 
+    using Cell = std::array<int, 3>; // of a lattice; in the plane the last index is 0
+
+    Cell n_cells(const geometry::Lattice &lattice)
+    {
+      return {lattice.n_cells()[0], lattice.n_cells()[1], 1};
+    }
+    Cell n_cells(const geometry::CubeLattice &lattice)
+    {
+      return lattice.n_cells();
+    }
+    bool is_inside(const geometry::Lattice &lattice, const Cell &cell)
+    {
+      return lattice.is_inside(cell[0], cell[1]);
+    }
+    bool is_inside(const geometry::CubeLattice &lattice, const Cell &cell)
+    {
+      return lattice.is_inside(cell);
+    }
+    Point<2> centre(const geometry::Lattice &lattice, const Cell &cell)
+    {
+      return lattice.point(cell[0] + .5, cell[1] + .5);
+    }
+    Point<3> centre(const geometry::CubeLattice &lattice, const Cell &cell)
+    {
+      return {lattice.coordinate(0, cell[0] + .5), lattice.coordinate(1, cell[1] + .5),
+              lattice.coordinate(2, cell[2] + .5)};
+    }
+
+    template <int dim>
+    double cell_volume(double h)
+    {
+      return dim == 2 ? h * h : h * h * h;
+    }
+
     /// A bond of every node of the lattice; of two that are opposite, one.
+    template <int dim>
     struct Half
     {
-      std::array<int, 2> k{};
-      Tensor<1, 2> xi, way;
+      Cell k{};
+      Tensor<1, dim> xi, way;
       double weight = 0; ///< w K
     };
 
-    std::vector<Half> half_family(const NeighbourhoodQuadrature<2> &rule,
-                                  const Kernel<2> &influence, double h, Backend backend)
+    template <int dim>
+    std::vector<Half<dim>> half_family(const NeighbourhoodQuadrature<dim> &rule,
+                                       const Kernel<dim> &influence, double h, Backend backend)
     {
-      const Bonds<2> all =
+      const Bonds<dim> all =
           lattice_bonds(rule, physics::deviatoric_kernel(influence, 1), h, backend);
-      std::vector<Half> result;
-      for (const Bond<2> &bond : all.family)
+      std::vector<Half<dim>> result;
+      for (const Bond<dim> &bond : all.family)
       {
-        const int k1 = static_cast<int>(std::lround(bond.xi[0] / h)),
-                  k2 = static_cast<int>(std::lround(bond.xi[1] / h));
+        Cell k{};
+        for (unsigned int d = 0; d < dim; ++d)
+          k[d] = static_cast<int>(std::lround(bond.xi[d] / h));
         const double weight = bond.weight * radial_value(influence, bond);
-        if ((k2 > 0 || (k2 == 0 && k1 > 0)) && weight != 0)
-          result.push_back(
-              {{k1, k2}, bond.xi, bond.kernel_point / bond.kernel_point.norm(), weight});
+        if (Cell{k[2], k[1], k[0]} > Cell{} && weight != 0)
+          result.push_back({k, bond.xi, bond.kernel_point / bond.kernel_point.norm(), weight});
       }
       return result;
     }
 
-    /// β = ∫K r⁴ dr of K = 3/(πδ³r).
-    double beta(const Kernel<2> &influence)
+    /// Energy of all bonds across a straight cut of a continuum whose stretches are 1, per length
+    /// or area, where dilatations are dim: ∫∫ (dim λ + 2μ) K r² over the bonds, of K = 3/(πδ³r) in
+    /// the plane and 3/(πδ⁴r) in space. 4β (λ + μ), β = ∫K r⁴ dr = 3δ/(4π), and πβ (3λ + 2μ), β =
+    /// ∫K r⁵ dr = 3δ/(5π).
+    template <int dim>
+    double energy_across(const Kernel<dim> &influence, const physics::Lame &lame)
     {
-      return .75 / M_PI * influence.horizon();
+      if (dim == 2)
+        return 4 * (.75 / M_PI * influence.horizon()) * (lame.lambda + lame.mu);
+      return .6 * influence.horizon() * (3 * lame.lambda + 2 * lame.mu);
     }
 
-    int box_of(const std::vector<geometry::Box> &boxes, const Point<2> &x, double h)
+    template <int dim>
+    int box_of(const std::vector<geometry::BoxOf<dim>> &boxes, const Point<dim> &x, double h)
     {
       for (std::size_t i = 0; i < boxes.size(); ++i)
-        if (x[0] > boxes[i].lower[0] - on_side * h && x[0] < boxes[i].upper[0] + on_side * h &&
-            x[1] > boxes[i].lower[1] - on_side * h && x[1] < boxes[i].upper[1] + on_side * h)
+      {
+        bool is_in = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_in = is_in && x[d] > boxes[i].lower[d] - on_side * h &&
+                  x[d] < boxes[i].upper[d] + on_side * h;
+        if (is_in)
           return static_cast<int>(i);
+      }
       return -1;
     }
 
-    /// The first grip that shares area with the cell of a node, as geometry::vertex_cells holds
-    /// nodes of bodies at rest; -1: none.
-    int grip_of(const std::vector<geometry::Box> &grips, const Point<2> &x, double h)
+    /// The first grip that shares area (volume) with the cell of a node, as geometry::vertex_cells
+    /// holds nodes of bodies at rest; -1: none.
+    template <int dim>
+    int grip_of(const std::vector<geometry::BoxOf<dim>> &grips, const Point<dim> &x, double h)
     {
-      const auto common = [&](const geometry::Box &box, unsigned int d)
+      const auto common = [&](const geometry::BoxOf<dim> &box, unsigned int d)
       { return std::min(box.upper[d], x[d] + h / 2) - std::max(box.lower[d], x[d] - h / 2); };
       for (std::size_t i = 0; i < grips.size(); ++i)
-        if (common(grips[i], 0) > on_side * h && common(grips[i], 1) > on_side * h)
+      {
+        bool is_common = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_common = is_common && common(grips[i], d) > on_side * h;
+        if (is_common)
           return static_cast<int>(i);
+      }
       return -1;
     }
 
-    /// Nodes, by cells of the lattice: shape (n[1], n[0]), -1 where there is none.
-    std::vector<int> place_nodes(const BreakingSolid &solid, const geometry::Lattice &lattice,
-                                 BondNetwork &network)
+    /// Nodes, by cells of the lattice: shape (n[2], n[1], n[0]), -1 where there is none.
+    template <int dim>
+    std::vector<int> place_nodes(const BreakingSolid<dim> &solid,
+                                 const geometry::LatticeOf<dim> &lattice, BondNetwork<dim> &network)
     {
-      const auto [n1, n2] = lattice.n_cells();
-      std::vector<int> number(static_cast<std::size_t>(n1) * n2, -1);
-      for (int j = 0; j < n2; ++j)
-        for (int i = 0; i < n1; ++i)
-          if (lattice.is_inside(i, j))
+      const Cell n = n_cells(lattice);
+      std::vector<int> number(static_cast<std::size_t>(n[0]) * n[1] * n[2], -1);
+      geometry::for_each_index(
+          {0, 0, 0}, n,
+          [&](const Cell &cell)
           {
-            const Point<2> x = lattice.point(i + .5, j + .5);
-            number[static_cast<std::size_t>(j) * n1 + i] = static_cast<int>(network.nodes.size());
+            if (!is_inside(lattice, cell))
+              return;
+            const Point<dim> x = centre(lattice, cell);
+            number[geometry::number_within(cell, n)] = static_cast<int>(network.nodes.size());
             network.nodes.push_back(x);
             network.grip.push_back(grip_of(solid.grips, x, network.h));
-            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, 2>()
+            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, dim>()
                                                                   : solid.constrained(x));
-          }
+          });
       for (std::size_t g = 0; g < solid.grips.size(); ++g)
         if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
             network.grip.end())
           throw InputError("Domain/fixed: grip " + std::to_string(g) +
-                           " holds no node: it shares no area with a cell; give a box in the body "
-                           "(Domain/boxes)");
+                           " holds no node: it shares no " + (dim == 2 ? "area" : "volume") +
+                           " with a cell; give a box in the body (Domain/boxes)");
       if (std::find(network.grip.begin(), network.grip.end(), -1) == network.grip.end())
         throw InputError("Domain/fixed holds all nodes; leave some of them free");
       return number;
     }
 
-    /// Tells which bonds go across lines.
+    /// x and y, by which it is known where a place is to lines, and to what they sweep along z.
+    template <int dim>
+    Point<2> in_plane(const Tensor<1, dim> &x)
+    {
+      return {x[0], x[1]};
+    }
+
+    /// Tells which bonds go across lines, in space across what lines sweep along z.
     class Crossing
     {
     public:
-      Crossing(const std::vector<geometry::Polyline> &lines, const BondNetwork &network)
+      template <int dim>
+      Crossing(const std::vector<geometry::Polyline> &lines, const BondNetwork<dim> &network)
           : broken_({lines, {}, problem::SurfaceTerms::none}, cells(network), network.horizon)
       {
       }
 
-      bool has(std::size_t from, const Tensor<1, 2> &xi, unsigned int to)
+      template <int dim>
+      bool has(std::size_t from, const Tensor<1, dim> &xi, unsigned int to)
       {
         one_.neighbours = {to};
         one_.bonds.resize(1);
-        one_.bonds[0].xi = Point<2>(xi);
+        one_.bonds[0].xi = in_plane(xi);
         return !broken_.find(from, one_, is_intact_);
       }
 
     private:
-      const geometry::NodeCells<2> &cells(const BondNetwork &network)
+      template <int dim>
+      const geometry::NodeCells<2> &cells(const BondNetwork<dim> &network)
       {
-        cells_.nodes = network.nodes;
+        for (const Point<dim> &x : network.nodes)
+          cells_.nodes.push_back(in_plane(x));
         cells_.n_free = network.nodes.size();
         for (std::size_t i = 0; i < network.nodes.size(); ++i)
           cells_.source.push_back(i);
@@ -135,12 +202,14 @@ namespace plumbline::meshfree
     };
 
     /// G of bonds.
+    template <int dim>
     class BondToughness
     {
     public:
-      BondToughness(const BreakingSolid &solid, const BondNetwork &network) : solid_(solid)
+      BondToughness(const BreakingSolid<dim> &solid, const BondNetwork<dim> &network)
+          : solid_(solid)
       {
-        for (const Point<2> &x : network.nodes)
+        for (const Point<dim> &x : network.nodes)
           of_nodes_.push_back(at(x));
         for (std::size_t k = 0; k < solid.interfaces.size(); ++k)
           try
@@ -156,7 +225,7 @@ namespace plumbline::meshfree
         is_crossed_.resize(interfaces_.size());
       }
 
-      double operator()(const BondNetwork &network, unsigned int a, const Tensor<1, 2> &xi,
+      double operator()(const BondNetwork<dim> &network, unsigned int a, const Tensor<1, dim> &xi,
                         unsigned int b)
       {
         double G = endless;
@@ -188,7 +257,7 @@ namespace plumbline::meshfree
       }
 
     private:
-      double at(const Point<2> &x) const
+      double at(const Point<dim> &x) const
       {
         const double G = solid_.toughness(x);
         if (G > 0)
@@ -200,20 +269,21 @@ namespace plumbline::meshfree
         throw InputError(message.str());
       }
 
-      const BreakingSolid &solid_;
+      const BreakingSolid<dim> &solid_;
       std::vector<double> of_nodes_;
       std::vector<std::unique_ptr<Crossing>> interfaces_;
       std::vector<bool> is_crossed_;
     };
 
     /// What two nodes have in common.
+    template <int dim>
     struct Materials
     {
       std::vector<physics::Lame> lame;
 
-      Materials(const BreakingSolid &solid, const std::vector<Point<2>> &nodes)
+      Materials(const BreakingSolid<dim> &solid, const std::vector<Point<dim>> &nodes)
       {
-        for (const Point<2> &x : nodes)
+        for (const Point<dim> &x : nodes)
           lame.push_back(solid.material(x));
       }
 
@@ -239,82 +309,106 @@ namespace plumbline::meshfree
       return result;
     }
 
+    /// Without gaps; empty: the forces have an energy.
+    /// @throws InputError  surface terms in space
+    template <int dim>
+    std::optional<typename BondNetwork<dim>::Surfaces> surfaces_of(const BreakingSolid<dim> &solid,
+                                                                   const Materials<dim> &materials)
+    {
+      if (solid.surface_terms == problem::SurfaceTerms::uncorrected)
+        return {};
+      if (dim == 3)
+        throw InputError("Fracture/surface terms = " + base::word(solid.surface_terms) +
+                         " is not known in space; write uncorrected");
+      return
+          typename BondNetwork<dim>::Surfaces{solid.surface_terms, {}, solid.notch, materials.lame};
+    }
+
     /// Infinite where a bond cannot break.
-    double critical_stretch(const BreakingSolid &solid, const BondNetwork &network,
-                            const Materials &materials, double toughness,
-                            const Kernel<2> &influence, unsigned int a, unsigned int b)
+    template <int dim>
+    double critical_stretch(const BreakingSolid<dim> &solid, const BondNetwork<dim> &network,
+                            const Materials<dim> &materials, double toughness,
+                            const Kernel<dim> &influence, unsigned int a, unsigned int b)
     {
       if ((network.grip[a] >= 0 && network.grip[b] >= 0) ||
           box_of(solid.unbreaking, network.nodes[a], network.h) >= 0 ||
           box_of(solid.unbreaking, network.nodes[b], network.h) >= 0)
         return endless;
       const physics::Lame lame = materials.mean(a, b);
-      return std::sqrt(toughness / solid.trapping /
-                       (4 * beta(influence) * (lame.lambda + lame.mu)));
+      return std::sqrt(toughness / solid.trapping / energy_across(influence, lame));
     }
   } // namespace
 
-  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature<2> &rule,
-                                const Kernel<2> &influence, double h, Backend backend)
+  template <int dim>
+  BondNetwork<dim> make_bond_network(const BreakingSolid<dim> &solid,
+                                     const NeighbourhoodQuadrature<dim> &rule,
+                                     const Kernel<dim> &influence, double h, Backend backend)
   {
-    BondNetwork network;
+    using NetworkBond = typename BondNetwork<dim>::Bond;
+    BondNetwork<dim> network;
     network.h = h;
     network.horizon = influence.horizon();
-    const geometry::Lattice lattice(solid.domain, h);
+    const geometry::LatticeOf<dim> lattice(solid.domain, h);
     const std::vector<int> number = place_nodes(solid, lattice, network);
-    const Materials materials(solid, network.nodes);
-    network.dilatation = dilatations(materials.lame, h * h);
-    BondToughness toughness_of(solid, network);
+    const Materials<dim> materials(solid, network.nodes);
+    const double V = cell_volume<dim>(h);
+    network.dilatation = dilatations(materials.lame, V);
+    BondToughness<dim> toughness_of(solid, network);
     Crossing notch(solid.notch, network);
-    const std::vector<Half> family = half_family(rule, influence, h, backend);
-    const auto [n1, n2] = lattice.n_cells();
-    const auto node_at = [&](int i, int j)
+    const std::vector<Half<dim>> family = half_family(rule, influence, h, backend);
+    const Cell n = n_cells(lattice);
+    const auto node_at = [&](const Cell &cell, const Cell &k, int sign)
     {
-      return i < 0 || i >= n1 || j < 0 || j >= n2 ? -1
-                                                  : number[static_cast<std::size_t>(j) * n1 + i];
+      const Cell at = {cell[0] + sign * k[0], cell[1] + sign * k[1], cell[2] + sign * k[2]};
+      return geometry::is_within(at, n) ? number[geometry::number_within(at, n)] : -1;
     };
-    const auto bond_of = [&](const Half &half, unsigned int a, unsigned int b)
+    const auto bond_of = [&](const Half<dim> &half, unsigned int a, unsigned int b)
     {
-      return NetworkBond{
-          a,           b,      half.xi, half.way, h * h * 8 * materials.mean(a, b).mu * half.weight,
-          half.weight, endless};
+      return NetworkBond{a,
+                         b,
+                         half.xi,
+                         half.way,
+                         V * (2 * (dim + 2)) * materials.mean(a, b).mu * half.weight,
+                         half.weight,
+                         endless};
     };
-    if (solid.surface_terms != problem::SurfaceTerms::uncorrected)
-      network.surfaces = {solid.surface_terms, {}, solid.notch, materials.lame};
+    network.surfaces = surfaces_of(solid, materials);
     const auto lack = [&](const NetworkBond &bond)
     {
       if (network.surfaces)
         network.surfaces->gaps.push_back(bond);
     };
-    for (int j = 0; j < n2; ++j)
-      for (int i = 0; i < n1; ++i)
-        for (const Half &half : family)
+    const auto add_bonds = [&](const Cell &cell)
+    {
+      const int from = number[geometry::number_within(cell, n)];
+      if (from < 0)
+        return;
+      for (const Half<dim> &half : family)
+      {
+        const int to = node_at(cell, half.k, 1), behind = node_at(cell, half.k, -1);
+        const auto a = static_cast<unsigned int>(from), b = static_cast<unsigned int>(to);
+        if (behind < 0)
+          lack(bond_of(half, a, a).reversed());
+        if (to < 0)
         {
-          const int from = node_at(i, j), to = node_at(i + half.k[0], j + half.k[1]),
-                    behind = node_at(i - half.k[0], j - half.k[1]);
-          if (from < 0)
-            continue;
-          const auto a = static_cast<unsigned int>(from), b = static_cast<unsigned int>(to);
-          if (behind < 0)
-            lack(bond_of(half, a, a).reversed());
-          if (to < 0)
-          {
-            lack(bond_of(half, a, a));
-            continue;
-          }
-          NetworkBond bond = bond_of(half, a, b);
-          if (notch.has(a, half.xi, b))
-          {
-            network.cut.push_back({a, b});
-            lack(bond);
-            lack(bond.reversed());
-            continue;
-          }
-          const double toughness = toughness_of(network, a, half.xi, b);
-          bond.critical = critical_stretch(solid, network, materials, toughness, influence, a, b);
-          network.bonds.push_back(bond);
-          network.toughness.push_back(toughness);
+          lack(bond_of(half, a, a));
+          continue;
         }
+        NetworkBond bond = bond_of(half, a, b);
+        if (notch.has(a, half.xi, b))
+        {
+          network.cut.push_back({a, b});
+          lack(bond);
+          lack(bond.reversed());
+          continue;
+        }
+        const double toughness = toughness_of(network, a, half.xi, b);
+        bond.critical = critical_stretch(solid, network, materials, toughness, influence, a, b);
+        network.bonds.push_back(bond);
+        network.toughness.push_back(toughness);
+      }
+    };
+    geometry::for_each_index({0, 0, 0}, n, add_bonds);
     toughness_of.check();
     if (!solid.notch.empty() && network.cut.empty())
       throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "
@@ -322,7 +416,8 @@ namespace plumbline::meshfree
     return network;
   }
 
-  std::vector<double> BondNetwork::damage(const std::vector<std::size_t> &broken) const
+  template <int dim>
+  std::vector<double> BondNetwork<dim>::damage(const std::vector<std::size_t> &broken) const
   {
     std::vector<double> all(nodes.size()), lost(nodes.size());
     for (const auto &ends : cut)
@@ -346,19 +441,39 @@ namespace plumbline::meshfree
     return lost;
   }
 
-  double lattice_toughness(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &influence,
-                           double h, Backend backend, std::array<int, 2> along)
+  template <int dim>
+  double lattice_toughness(const NeighbourhoodQuadrature<dim> &rule, const Kernel<dim> &influence,
+                           double h, Backend backend, std::array<int, dim> normal)
   {
-    const double steps = std::hypot(along[0], along[1]);
-    Assert(steps > 0, dealii::ExcMessage("a line without a direction"));
-    // for λ = μ = 1 and s0² = 1/(8β); of each kind of bond |k x along| cross the line in h |along|
+    double steps = 0;
+    for (const int step : normal)
+      steps = std::hypot(steps, step);
+    Assert(steps > 0, dealii::ExcMessage("a normal without a direction"));
+    // λ = μ = 1; of each kind of bond |k·normal| go through the line or plane in h or h² times
+    // |normal|
+    const double V = cell_volume<dim>(h), first = energy_across(influence, {1, 1});
     double sum = 0;
-    for (const Half &half : half_family(rule, influence, h, backend))
+    for (const Half<dim> &half : half_family(rule, influence, h, backend))
     {
-      const double stretch = (half.way * half.xi) * (half.way * half.xi) / (8 * beta(influence)),
-                   n_across = std::abs(half.k[0] * along[1] - half.k[1] * along[0]) / (h * steps);
-      sum += .5 * h * h * 8 * half.weight * stretch * n_across;
+      int rise = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        rise += half.k[d] * normal[d];
+      const double stretch = (half.way * half.xi) * (half.way * half.xi) / first,
+                   n_across = std::abs(rise) / (V / h * steps);
+      sum += .5 * V * (2 * (dim + 2)) * half.weight * stretch * n_across;
     }
     return sum;
   }
+
+#define INSTANTIATE(dim)                                                                           \
+  template struct BondNetwork<dim>;                                                                \
+  template BondNetwork<dim> make_bond_network(const BreakingSolid<dim> &,                          \
+                                              const NeighbourhoodQuadrature<dim> &,                \
+                                              const Kernel<dim> &, double, Backend);               \
+  template double lattice_toughness<dim>(const NeighbourhoodQuadrature<dim> &,                     \
+                                         const Kernel<dim> &, double, Backend,                     \
+                                         std::array<int, dim>);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace plumbline::meshfree

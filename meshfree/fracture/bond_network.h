@@ -17,21 +17,23 @@ namespace plumbline::meshfree
 
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
   ///   E = Σ_bonds k/2 (way·Δu)² + Σ_nodes τ/2 θ²,  θ = Σ_bonds share ξ·Δu,  Δu = u_to - u_from,
-  /// with k = V w 8μK, share = w K, τ = V (λ - μ), K the influence function of ∫K|ξ|² = 2. That is
+  /// with k = V w 2 (dim + 2) μK, share = w K, τ = V (λ - μ), K the influence function of ∫K|ξ|² =
+  /// dim. That is
   /// the linear peridynamic solid whose bonds end at free surfaces and cracks, without the
   /// correction M of its dilatation and without the terms that free surfaces of traction add,
-  /// which make it unsymmetric, see SurfaceForces. λ = μ, plane strain of ν = 1/4, leaves the bonds
-  /// alone. Where constants vary, k has the harmonic mean of both ends' μ and τ the node's own λ -
-  /// μ, so that there is an energy still; with harmonic means of both, as statics has, there is
-  /// none. Both have the same local limit.
+  /// which make it unsymmetric, see SurfaceForces. λ = μ, ν = 1/4 in plane strain or space, leaves
+  /// the bonds alone. Where constants vary, k has the harmonic mean of both ends' μ and τ the
+  /// node's own λ - μ, so that there is an energy still; with harmonic means of both, as statics
+  /// has, there is none. Both have the same local limit.
+  template <int dim>
   struct BondNetwork
   {
     struct Bond
     {
       unsigned int from = 0, to = 0;
-      Tensor<1, 2> xi;      ///< from node to node [length]
-      Tensor<1, 2> way;     ///< along which it pulls, of length 1
-      double stiffness = 0; ///< k [force/length^2]
+      Tensor<1, dim> xi;    ///< from node to node [length]
+      Tensor<1, dim> way;   ///< along which it pulls, of length 1
+      double stiffness = 0; ///< k [force/length^2 in the plane, force/length in space]
       double share = 0;     ///< of dilatations [1/length^2]
       double critical = 0;  ///< the stretch at which it breaks; infinite: never
 
@@ -39,15 +41,15 @@ namespace plumbline::meshfree
     };
 
     double h = 0, horizon = 0; ///< [length]
-    std::vector<Point<2>> nodes;
+    std::vector<Point<dim>> nodes;
     std::vector<int> grip;                        ///< of each node, -1: free
-    std::vector<Tensor<1, 2>> constrained;        ///< u of each node at load 1, 0 where it is free
+    std::vector<Tensor<1, dim>> constrained;      ///< u of each node at load 1, 0 where it is free
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
-    std::vector<double> toughness;                ///< G of each of them [force/length]
+    std::vector<double> toughness;                ///< G of each of them [force/length^(dim-1)]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
     std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
 
-    /// Of a solid whose dilatations are corrected at surfaces.
+    /// Of a solid in the plane whose dilatations are corrected at surfaces.
     struct Surfaces
     {
       problem::SurfaceTerms terms = problem::SurfaceTerms::published;
@@ -63,22 +65,30 @@ namespace plumbline::meshfree
     std::vector<double> damage(const std::vector<std::size_t> &broken) const;
   };
 
-  /// Critical stretches by G: with s0² = G / (4β (λ + μ)), β = ∫K r⁴ dr, the energy of all bonds
-  /// across a straight cut of a continuum is G where dilatations are twice the stretch, which is
-  /// exact for bonds (λ = μ). On the lattice itself it is .9158 G for m = 3, see lattice_toughness.
-  /// Bonds between two materials have harmonic means of λ and μ, and G as BreakingSolid says.
+  /// Critical stretches by G: the energy of all bonds across a straight cut of a continuum, each at
+  /// s0, is G where dilatations are dim times the stretch, which is exact for bonds (λ = μ):
+  ///   s0² = G / (4β (λ + μ)), β = ∫K r⁴ dr, in the plane,
+  ///   s0² = G / (πβ (3λ + 2μ)), β = ∫K r⁵ dr, that is 5G / (9kδ) of the bulk modulus k, in space.
+  /// On the lattice itself it is .9158 G for m = 3 in the plane, see lattice_toughness. Bonds
+  /// between two materials have harmonic means of λ and μ, and G as BreakingSolid says.
+  /// Instantiated for dim = 2 and 3.
   /// @param rule       with the deviatoric kernel of μ = 1
-  /// @param influence  1/r, ∫K|ξ|² = 2
+  /// @param influence  1/r, ∫K|ξ|² = dim
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
-  /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond
-  /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ,
-  /// doi:10.1016/j.compstruc.2004.11.026.
-  BondNetwork make_bond_network(const BreakingSolid &solid, const NeighbourhoodQuadrature<2> &rule,
-                                const Kernel<2> &influence, double h, Backend backend);
+  /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond; surface
+  /// terms in space
+  /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ, in space c =
+  /// 18k/(πδ⁴) and s0² = 10G/(πcδ⁵), doi:10.1016/j.compstruc.2004.11.026.
+  template <int dim>
+  BondNetwork<dim> make_bond_network(const BreakingSolid<dim> &solid,
+                                     const NeighbourhoodQuadrature<dim> &rule,
+                                     const Kernel<dim> &influence, double h, Backend backend);
 
-  /// Energy of all bonds across an endless straight line that meets no node, each at its limit s0
-  /// of G = 1, on a homogeneous lattice with λ = μ, per length: what a crack along it breaks.
-  /// @param along  the line's direction in steps of the lattice, not (0, 0)
-  double lattice_toughness(const NeighbourhoodQuadrature<2> &rule, const Kernel<2> &influence,
-                           double h, Backend backend, std::array<int, 2> along = {1, 0});
+  /// Energy of all bonds across an endless straight line, or a plane in space, that meets no node,
+  /// each at its limit s0 of G = 1, on a homogeneous lattice with λ = μ, per length or area: what a
+  /// crack along it breaks. Instantiated for dim = 2 and 3.
+  /// @param normal  of the line or plane in steps of the lattice, not 0
+  template <int dim>
+  double lattice_toughness(const NeighbourhoodQuadrature<dim> &rule, const Kernel<dim> &influence,
+                           double h, Backend backend, std::array<int, dim> normal = {0, 1});
 } // namespace plumbline::meshfree

@@ -22,8 +22,9 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  BreakingNetwork::BreakingNetwork(BondNetwork network, problem::Stretch stretch,
-                                   problem::GrowthSolver solver, Refactor refactor)
+  template <int dim>
+  BreakingNetwork<dim>::BreakingNetwork(BondNetwork<dim> network, problem::Stretch stretch,
+                                        problem::GrowthSolver solver, Refactor refactor)
       : network_(std::move(network)), stretch_(stretch), solver_(solver), refactor_(refactor)
   {
     factor();
@@ -32,10 +33,11 @@ namespace plumbline::meshfree
                        "(Domain/cracks) end in the body, or mend Domain/boxes");
   }
 
-  void BreakingNetwork::factor()
+  template <int dim>
+  void BreakingNetwork<dim>::factor()
   {
     const base::CpuTimer timer;
-    connections_ = std::make_unique<Connections>(network_);
+    connections_ = std::make_unique<Connections<dim>>(network_);
     connections_->break_bonds(broken_);
     equations_ = solver_ == problem::GrowthSolver::multigrid
                      ? multigrid_equations(network_, *connections_)
@@ -52,7 +54,8 @@ namespace plumbline::meshfree
     evaluate();
   }
 
-  void BreakingNetwork::restart(const std::vector<std::size_t> &broken)
+  template <int dim>
+  void BreakingNetwork<dim>::restart(const std::vector<std::size_t> &broken)
   {
     broken_ = broken;
     std::sort(broken_.begin(), broken_.end());
@@ -60,7 +63,8 @@ namespace plumbline::meshfree
   }
 
   /// Without factoring; false if that would be cheaper, or is needed.
-  bool BreakingNetwork::update(const std::vector<std::size_t> &bonds)
+  template <int dim>
+  bool BreakingNetwork<dim>::update(const std::vector<std::size_t> &bonds)
   {
     const double cost = equations_->update_seconds(bonds.size(), n_iterations_);
     if (refactor_ == Refactor::always || cost * static_cast<double>(n_events_) > seconds_)
@@ -80,32 +84,35 @@ namespace plumbline::meshfree
   }
 
   /// From u; false: the equations have become singular, or it takes too many iterations.
-  bool BreakingNetwork::equilibrate()
+  template <int dim>
+  bool BreakingNetwork<dim>::equilibrate()
   {
-    if (network_.surfaces)
-    {
-      surfaces_.emplace(network_, *connections_);
-      const auto n =
-          meshfree::equilibrate([this](const NodeField &u) { return surfaces_->forces(u); },
-                                Iteration::gmres, network_, *equations_, u_);
-      if (!n)
-        return false;
-      n_iterations_ = *n;
-    }
-    else
-    {
-      auto solution = equations_->solve(u_);
-      if (!solution)
-        return false;
-      u_ = std::move(solution->u);
-      n_iterations_ = solution->n_iterations;
-    }
+    std::optional<unsigned int> n;
+    if constexpr (dim == 2)
+      if (network_.surfaces)
+      {
+        surfaces_.emplace(network_, *connections_);
+        n = meshfree::equilibrate<dim>([this](const NodeField<dim> &u)
+                                       { return surfaces_->forces(u); },
+                                       Iteration::gmres, network_, *equations_, u_);
+      }
+    if (!network_.surfaces)
+      if (auto solution = equations_->solve(u_))
+      {
+        u_ = std::move(solution->u);
+        n = solution->n_iterations;
+      }
+    if (!n)
+      return false;
+    n_iterations_ = *n;
     work_.n_iterations += n_iterations_;
     work_.most_iterations = std::max<std::uint64_t>(work_.most_iterations, n_iterations_);
     return true;
   }
 
-  BreakingNetwork::Release BreakingNetwork::break_bonds(const std::vector<std::size_t> &bonds)
+  template <int dim>
+  typename BreakingNetwork<dim>::Release
+  BreakingNetwork<dim>::break_bonds(const std::vector<std::size_t> &bonds)
   {
     Release result = release(bonds);
     const std::vector<double> pull = pull_;
@@ -128,13 +135,15 @@ namespace plumbline::meshfree
     return result;
   }
 
-  BreakingNetwork::Release BreakingNetwork::release(const std::vector<std::size_t> &bonds) const
+  template <int dim>
+  typename BreakingNetwork<dim>::Release
+  BreakingNetwork<dim>::release(const std::vector<std::size_t> &bonds) const
   {
     Release result;
     std::vector<double> theta = theta_;
     for (const std::size_t b : bonds)
     {
-      const BondNetwork::Bond &bond = network_.bonds[b];
+      const typename BondNetwork<dim>::Bond &bond = network_.bonds[b];
       const double own = .5 * bond.stiffness * square(pull_[b]),
                    dilation = bond.share * (bond.xi * (u_[bond.to] - u_[bond.from]));
       result.single.push_back(own);
@@ -152,9 +161,10 @@ namespace plumbline::meshfree
     return result;
   }
 
-  double BreakingNetwork::critical_load(const BondNetwork::Bond &bond) const
+  template <int dim>
+  double BreakingNetwork<dim>::critical_load(const typename BondNetwork<dim>::Bond &bond) const
   {
-    const Tensor<1, 2> du = u_[bond.to] - u_[bond.from];
+    const Tensor<1, dim> du = u_[bond.to] - u_[bond.from];
     const double b = bond.xi * du, c = bond.critical * bond.xi.norm_square();
     if (stretch_ == problem::Stretch::linear)
       return b > 0 ? c / b : endless;
@@ -166,11 +176,14 @@ namespace plumbline::meshfree
     return sum > 0 ? right / sum : endless;
   }
 
-  void BreakingNetwork::evaluate()
+  template <int dim>
+  void BreakingNetwork<dim>::evaluate()
   {
-    const std::vector<BondNetwork::Bond> &bonds = network_.bonds;
-    theta_ = surfaces_ && !network_.dilatation.empty() ? surfaces_->dilatations(u_)
-                                                       : dilatations(network_, *connections_, u_);
+    const std::vector<typename BondNetwork<dim>::Bond> &bonds = network_.bonds;
+    theta_ = dilatations(network_, *connections_, u_);
+    if constexpr (dim == 2)
+      if (surfaces_ && !theta_.empty())
+        theta_ = surfaces_->dilatations(u_);
     pull_.assign(bonds.size(), 0);
     response_ = {0, 0, 0, std::vector<double>(bonds.size(), endless)};
     double largest_force = 0;
@@ -178,8 +191,8 @@ namespace plumbline::meshfree
     {
       if (!connections_->is_whole(b))
         continue;
-      const BondNetwork::Bond &bond = bonds[b];
-      const Tensor<1, 2> f = force(network_, bond, u_, theta_);
+      const typename BondNetwork<dim>::Bond &bond = bonds[b];
+      const Tensor<1, dim> f = force(network_, bond, u_, theta_);
       pull_[b] = bond.way * (u_[bond.to] - u_[bond.from]);
       response_.energy += .5 * bond.stiffness * square(pull_[b]);
       response_.reaction += f * (network_.constrained[bond.to] - network_.constrained[bond.from]);
@@ -189,21 +202,27 @@ namespace plumbline::meshfree
     }
     for (std::size_t i = 0; i < theta_.size(); ++i)
       response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
-    if (surfaces_) // they act on nodes in grips too
-    {
-      const NodeField terms = surfaces_->terms(u_);
-      for (std::size_t i = 0; i < terms.size(); ++i)
-        response_.reaction -= terms[i] * network_.constrained[i];
-    }
+    if constexpr (dim == 2)
+      if (surfaces_) // they act on nodes in grips too
+      {
+        const NodeField<dim> terms = surfaces_->terms(u_);
+        for (std::size_t i = 0; i < terms.size(); ++i)
+          response_.reaction -= terms[i] * network_.constrained[i];
+      }
     if (force_scale_ == 0)
       force_scale_ = std::sqrt(largest_force);
     response_.residual = residual();
   }
 
-  double BreakingNetwork::residual() const
+  template <int dim>
+  double BreakingNetwork<dim>::residual() const
   {
-    const NodeField sums =
-        surfaces_ ? surfaces_->forces(u_) : forces(network_, *connections_, u_, theta_);
+    NodeField<dim> sums;
+    if constexpr (dim == 2)
+      if (surfaces_)
+        sums = surfaces_->forces(u_);
+    if (!surfaces_)
+      sums = forces(network_, *connections_, u_, theta_);
     double largest = 0;
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (network_.grip[i] < 0)
@@ -211,14 +230,15 @@ namespace plumbline::meshfree
     return std::sqrt(largest) / force_scale_;
   }
 
-  method::BreakableBody breakable_body(std::shared_ptr<BreakingNetwork> body,
-                                       const dealii::Point<2> &notch_tip)
+  template <int dim>
+  method::BreakableBody<dim> breakable_body(std::shared_ptr<BreakingNetwork<dim>> body,
+                                            const dealii::Point<2> &notch_tip)
   {
-    method::BreakableBody model;
-    const BondNetwork &network = body->network();
+    method::BreakableBody<dim> model;
+    const BondNetwork<dim> &network = body->network();
     model.h = network.h;
     model.nodes = network.nodes;
-    for (const BondNetwork::Bond &bond : network.bonds)
+    for (const typename BondNetwork<dim>::Bond &bond : network.bonds)
       model.bonds.push_back({bond.from, bond.to});
     model.toughness_of_bonds = network.toughness;
     model.cut = network.cut;
@@ -229,4 +249,11 @@ namespace plumbline::meshfree
     model.body = std::move(body);
     return model;
   }
+
+  template class BreakingNetwork<2>;
+  template class BreakingNetwork<3>;
+  template method::BreakableBody<2> breakable_body(std::shared_ptr<BreakingNetwork<2>>,
+                                                   const dealii::Point<2> &);
+  template method::BreakableBody<3> breakable_body(std::shared_ptr<BreakingNetwork<3>>,
+                                                   const dealii::Point<2> &);
 } // namespace plumbline::meshfree

@@ -12,20 +12,22 @@ namespace plumbline::meshfree
   enum class Refactor
   {
     when_cheaper, ///< once an event would cost more than the mean of those since they were made,
-                  ///< that included, by the estimates of NetworkEquations
+                  ///< that included, by the estimates of NetworkEquations<dim>
     always        ///< at every event, to compare with
   };
 
-  /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections)
+  /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections<dim>)
   /// carries no force. With surface terms (see SurfaceForces) its energies are those of the bonds
   /// and dilatations that it has, but its forces have no energy.
+  /// Instantiated for dim = 2 and 3.
+  template <int dim>
   class BreakingNetwork : public method::QuasistaticFractureModel
   {
   public:
     /// @param solver  automatic is factor: what fits is not known here
     /// @throws InputError  no path of bonds joins the grips from the beginning
     /// @throws NumericalError  the body is a mechanism
-    BreakingNetwork(BondNetwork network, problem::Stretch stretch,
+    BreakingNetwork(BondNetwork<dim> network, problem::Stretch stretch,
                     problem::GrowthSolver solver = problem::GrowthSolver::factor,
                     Refactor refactor = Refactor::when_cheaper);
 
@@ -40,10 +42,10 @@ namespace plumbline::meshfree
     bool has_energy() const override { return !network_.surfaces; }
     const Work &work() const override { return work_; }
 
-    const BondNetwork &network() const { return network_; }
+    const BondNetwork<dim> &network() const { return network_; }
     std::size_t n_unknowns() const override { return equations_->n_unknowns(); }
     /// u of all nodes at load 1.
-    const NodeField &displacements() const { return u_; }
+    const NodeField<dim> &displacements() const { return u_; }
 
   private:
     void factor();
@@ -51,22 +53,22 @@ namespace plumbline::meshfree
     bool equilibrate();
     void evaluate();
     double residual() const;
-    double critical_load(const BondNetwork::Bond &bond) const;
+    double critical_load(const typename BondNetwork<dim>::Bond &bond) const;
     Release release(const std::vector<std::size_t> &bonds) const;
 
-    BondNetwork network_;
+    BondNetwork<dim> network_;
     problem::Stretch stretch_;
     problem::GrowthSolver solver_;
     Refactor refactor_;
     std::vector<std::size_t> broken_;
-    std::unique_ptr<Connections> connections_;
-    std::unique_ptr<NetworkEquations> equations_;
-    std::optional<SurfaceForces> surfaces_;
-    double seconds_ = 0; ///< estimated, since they were made
+    std::unique_ptr<Connections<dim>> connections_;
+    std::unique_ptr<NetworkEquations<dim>> equations_;
+    std::optional<SurfaceForces> surfaces_; ///< of dim = 2 alone
+    double seconds_ = 0;                    ///< estimated, since they were made
     std::size_t n_events_ = 0;
     unsigned int n_iterations_ = 0; ///< of the last solution
 
-    NodeField u_;
+    NodeField<dim> u_;
     std::vector<double> pull_;  ///< way·Δu of each bond
     std::vector<double> theta_; ///< of each node, or empty
     double force_scale_ = 0;    ///< largest force of a bond when all were whole
@@ -75,6 +77,7 @@ namespace plumbline::meshfree
   };
 
   /// The same with what is known of its nodes and bonds.
-  method::BreakableBody breakable_body(std::shared_ptr<BreakingNetwork> body,
-                                       const dealii::Point<2> &notch_tip);
+  template <int dim>
+  method::BreakableBody<dim> breakable_body(std::shared_ptr<BreakingNetwork<dim>> body,
+                                            const dealii::Point<2> &notch_tip);
 } // namespace plumbline::meshfree

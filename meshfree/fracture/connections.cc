@@ -7,16 +7,66 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// Bonds lie on a line where the determinant of Σ way⊗way is below this part of its square:
-    /// within an angle of 1e-5.
-    constexpr double collinear = 1e-10;
+    /// A bond is in the line or plane of others where the square of the sine between them is below
+    /// this: within an angle of 1e-5.
+    constexpr double within = 1e-10;
 
-    Tensor<1, 2> across(const Tensor<1, 2> &way)
+    template <int dim>
+    using Directions = std::vector<Tensor<1, dim>>; // orthonormal
+
+    /// What of a vector is across all directions.
+    template <int dim>
+    Tensor<1, dim> across(const Directions<dim> &directions, Tensor<1, dim> vector)
     {
-      Tensor<1, 2> result;
-      result[0] = -way[1];
-      result[1] = way[0];
-      return result;
+      for (const Tensor<1, dim> &one : directions)
+        vector -= (one * vector) * one;
+      return vector;
+    }
+
+    /// Add one across those there are.
+    void add_another(Directions<2> &directions)
+    {
+      Tensor<1, 2> next;
+      next[0] = directions.empty() ? 1 : -directions[0][1];
+      next[1] = directions.empty() ? 0 : directions[0][0];
+      directions.push_back(next);
+    }
+    void add_another(Directions<3> &directions)
+    {
+      Tensor<1, 3> next;
+      if (directions.size() == 2)
+        next = dealii::cross_product_3d(directions[0], directions[1]);
+      else
+        for (unsigned int d = 0; d < 3; ++d) // the axis that is most across
+        {
+          Tensor<1, 3> axis;
+          axis[d] = 1;
+          const Tensor<1, 3> part = across(directions, axis);
+          if (part.norm_square() > (1 + within) * next.norm_square())
+            next = part;
+        }
+      directions.push_back(next / next.norm());
+    }
+
+    /// Those that span the same as some vectors of length 1, the last one of them first.
+    template <int dim>
+    Directions<dim> span(const std::vector<Tensor<1, dim>> &vectors)
+    {
+      Directions<dim> directions;
+      if (!vectors.empty())
+        directions.push_back(vectors.back());
+      while (!directions.empty() && directions.size() < dim)
+      {
+        Tensor<1, dim> next;
+        for (const Tensor<1, dim> &one : vectors)
+          if (const Tensor<1, dim> part = across(directions, one);
+              part.norm_square() > next.norm_square())
+            next = part;
+        if (next.norm_square() <= within)
+          break;
+        directions.push_back(next / next.norm());
+      }
+      return directions;
     }
 
     /// Things joined in sets, by the smallest of each.
@@ -45,12 +95,12 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  Connections::Connections(const BondNetwork &network)
+  template <int dim>
+  Connections<dim>::Connections(const BondNetwork<dim> &network)
       : network_(&network), first_(network.nodes.size() + 1), is_whole_(network.bonds.size(), 1),
-        is_idle_(network.bonds.size(), 0), n_holds_(network.nodes.size(), 0),
-        is_loose_(network.nodes.size(), 0)
+        is_idle_(network.bonds.size(), 0), is_loose_(network.nodes.size(), 0)
   {
-    for (const BondNetwork::Bond &bond : network.bonds)
+    for (const typename BondNetwork<dim>::Bond &bond : network.bonds)
     {
       ++first_[bond.from + 1];
       ++first_[bond.to + 1];
@@ -67,7 +117,8 @@ namespace plumbline::meshfree
     find_pieces();
   }
 
-  void Connections::break_bonds(const std::vector<std::size_t> &bonds)
+  template <int dim>
+  void Connections<dim>::break_bonds(const std::vector<std::size_t> &bonds)
   {
     std::vector<std::size_t> ends;
     for (const std::size_t b : bonds)
@@ -80,31 +131,26 @@ namespace plumbline::meshfree
     find_pieces();
   }
 
-  void Connections::hold_across(std::size_t node, const Tensor<1, 2> &way)
-  {
-    if (n_holds_[node] > 0)
-      return;
-    n_holds_[node] = is_loose_[node] = 1;
-    holds_.push_back({node, across(way)});
-  }
-
-  void Connections::hold_both(std::size_t node)
+  /// Hold a node across these directions, as far as it is not held yet.
+  template <int dim>
+  void Connections<dim>::hold(std::size_t node, Directions<dim> directions)
   {
     is_loose_[node] = 1;
-    Tensor<1, 2> direction;
-    direction[0] = 1;
-    if (n_holds_[node] == 1)
-      for (const Hold &one : holds_)
-        if (one.node == node)
-          direction = one.direction;
-    if (n_holds_[node] == 0)
-      holds_.push_back({node, direction});
-    if (n_holds_[node] < 2)
-      holds_.push_back({node, across(direction)});
-    n_holds_[node] = 2;
+    Directions<dim> &held = held_[node];
+    for (const Tensor<1, dim> &one : held)
+      if (const Tensor<1, dim> part = directions.empty() ? one : across(directions, one);
+          part.norm_square() > within)
+        directions.push_back(directions.empty() ? part : part / part.norm());
+    while (directions.size() < dim)
+    {
+      add_another(directions);
+      held.push_back(directions.back());
+      holds_.push_back({node, directions.back()});
+    }
   }
 
-  void Connections::hold(const std::vector<Tensor<1, 2>> &mode)
+  template <int dim>
+  void Connections<dim>::hold(const std::vector<Tensor<1, dim>> &mode)
   {
     constexpr double moves = 1e-6; // of the largest displacement
     std::size_t most = 0;
@@ -117,42 +163,48 @@ namespace plumbline::meshfree
         is_loose_[i] = 1;
   }
 
-  // the last bond of a node does not hold the node at its other end, which is looked at again
-  void Connections::look_at(std::vector<std::size_t> nodes)
+  // the last bonds of a node, too few to hold it, carry no force and so do not hold the nodes at
+  // their other ends, which are looked at again; they go on to say where the node is
+  template <int dim>
+  void Connections<dim>::look_at(std::vector<std::size_t> nodes)
   {
+    std::vector<Tensor<1, dim>> ways;
+    std::vector<unsigned int> carrying;
     while (!nodes.empty())
     {
       const std::size_t node = nodes.back();
       nodes.pop_back();
       if (network_->grip[node] >= 0)
         continue;
-      Tensor<2, 2> sum;
-      std::size_t n = 0, n_whole = 0, last = 0;
+      ways.clear();
+      carrying.clear();
       const auto [begin, end] = bonds_of(node);
       for (const unsigned int *b = begin; b != end; ++b)
       {
-        n_whole += is_whole(*b) ? 1 : 0;
-        if (!carries(*b))
-          continue;
-        ++n;
-        last = *b;
-        sum += outer_product(network_->bonds[*b].way, network_->bonds[*b].way);
+        const auto placed = is_whole(*b) ? placed_.find(*b) : placed_.end();
+        if (carries(*b))
+          carrying.push_back(*b);
+        if (carries(*b) || (placed != placed_.end() && placed->second == node))
+          ways.push_back(network_->bonds[*b].way);
       }
-      if (n > 0 && determinant(sum) > collinear * trace(sum) * trace(sum))
+      const Directions<dim> directions = span(ways);
+      if (directions.size() == dim)
         continue;
-      if (n > 0)
-        hold_across(node, network_->bonds[last].way);
-      else if (n_whole == 0 || n_holds_[node] == 0)
-        hold_both(node); // else its own last bond goes on to say where it is
-      if (n != 1)
+      hold(node, directions);
+      if (carrying.size() != directions.size())
         continue;
-      is_idle_[last] = 1;
-      const BondNetwork::Bond &bond = network_->bonds[last];
-      nodes.push_back(bond.from == node ? bond.to : bond.from);
+      for (const unsigned int b : carrying)
+      {
+        is_idle_[b] = 1;
+        placed_[b] = node;
+        const typename BondNetwork<dim>::Bond &bond = network_->bonds[b];
+        nodes.push_back(bond.from == node ? bond.to : bond.from);
+      }
     }
   }
 
-  void Connections::find_pieces()
+  template <int dim>
+  void Connections<dim>::find_pieces()
   {
     const std::size_t n_nodes = network_->nodes.size();
     const int n_grips = 1 + *std::max_element(network_->grip.begin(), network_->grip.end());
@@ -171,10 +223,13 @@ namespace plumbline::meshfree
       if (carries(b) && sets.find(grips + network_->bonds[b].from) >= grips)
       {
         of_pieces.push_back(b);
-        hold_both(network_->bonds[b].from);
-        hold_both(network_->bonds[b].to);
+        hold(network_->bonds[b].from, {});
+        hold(network_->bonds[b].to, {});
       }
     for (const std::size_t b : of_pieces)
       is_idle_[b] = 1;
   }
+
+  template class Connections<2>;
+  template class Connections<3>;
 } // namespace plumbline::meshfree

@@ -10,32 +10,35 @@ namespace plumbline::meshfree
   {
     using Vector = dealii::Vector<double>;
 
-    NodeField to_field(const Vector &x)
+    template <int dim>
+    NodeField<dim> to_field(const Vector &x)
     {
-      NodeField field(x.size() / 2);
+      NodeField<dim> field(x.size() / dim);
       for (std::size_t i = 0; i < field.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          field[i][d] = x[2 * i + d];
+        for (unsigned int d = 0; d < dim; ++d)
+          field[i][d] = x[dim * i + d];
       return field;
     }
 
     /// Of free nodes, 0 at grips.
-    void put(const NodeField &field, const BondNetwork &network, Vector &x)
+    template <int dim>
+    void put(const NodeField<dim> &field, const BondNetwork<dim> &network, Vector &x)
     {
       for (std::size_t i = 0; i < field.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          x[2 * i + d] = network.grip[i] < 0 ? field[i][d] : 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[dim * i + d] = network.grip[i] < 0 ? field[i][d] : 0;
     }
 
     /// A linear map of fields, as a solver of deal.II wants it.
+    template <int dim>
     struct Map
     {
-      const BondNetwork &network;
-      std::function<NodeField(const NodeField &)> action;
+      const BondNetwork<dim> &network;
+      std::function<NodeField<dim>(const NodeField<dim> &)> action;
 
       void vmult(Vector &result, const Vector &input) const
       {
-        put(action(to_field(input)), network, result);
+        put(action(to_field<dim>(input)), network, result);
       }
     };
 
@@ -44,14 +47,15 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  std::vector<double> dilatations(const BondNetwork &network, const Connections &connections,
-                                  const NodeField &u)
+  template <int dim>
+  std::vector<double> dilatations(const BondNetwork<dim> &network,
+                                  const Connections<dim> &connections, const NodeField<dim> &u)
   {
     std::vector<double> theta(network.dilatation.size());
     for (std::size_t b = 0; b < network.bonds.size() && !theta.empty(); ++b)
       if (connections.is_whole(b))
       {
-        const BondNetwork::Bond &bond = network.bonds[b];
+        const typename BondNetwork<dim>::Bond &bond = network.bonds[b];
         const double part = bond.share * (bond.xi * (u[bond.to] - u[bond.from]));
         theta[bond.from] += part;
         theta[bond.to] += part;
@@ -59,10 +63,11 @@ namespace plumbline::meshfree
     return theta;
   }
 
-  Tensor<1, 2> force(const BondNetwork &network, const BondNetwork::Bond &bond, const NodeField &u,
-                     const std::vector<double> &theta)
+  template <int dim>
+  Tensor<1, dim> force(const BondNetwork<dim> &network, const typename BondNetwork<dim>::Bond &bond,
+                       const NodeField<dim> &u, const std::vector<double> &theta)
   {
-    Tensor<1, 2> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
+    Tensor<1, dim> f = bond.stiffness * (bond.way * (u[bond.to] - u[bond.from])) * bond.way;
     if (!network.dilatation.empty())
       f += (network.dilatation[bond.from] * theta[bond.from] +
             network.dilatation[bond.to] * theta[bond.to]) *
@@ -70,40 +75,43 @@ namespace plumbline::meshfree
     return f;
   }
 
-  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u,
-                   const std::vector<double> &theta)
+  template <int dim>
+  NodeField<dim> forces(const BondNetwork<dim> &network, const Connections<dim> &connections,
+                        const NodeField<dim> &u, const std::vector<double> &theta)
   {
-    NodeField result(u.size());
+    NodeField<dim> result(u.size());
     for (std::size_t b = 0; b < network.bonds.size(); ++b)
       if (connections.is_whole(b))
       {
-        const BondNetwork::Bond &bond = network.bonds[b];
-        const Tensor<1, 2> f = force(network, bond, u, theta);
+        const typename BondNetwork<dim>::Bond &bond = network.bonds[b];
+        const Tensor<1, dim> f = force(network, bond, u, theta);
         result[bond.from] += f;
         result[bond.to] -= f;
       }
     return result;
   }
 
-  std::optional<unsigned int> equilibrate(const std::function<NodeField(const NodeField &)> &forces,
-                                          Iteration iteration, const BondNetwork &network,
-                                          const NetworkEquations &equations, NodeField &u)
+  template <int dim>
+  std::optional<unsigned int>
+  equilibrate(const std::function<NodeField<dim>(const NodeField<dim> &)> &forces,
+              Iteration iteration, const BondNetwork<dim> &network,
+              const NetworkEquations<dim> &equations, NodeField<dim> &u)
   {
     constexpr unsigned int most_iterations = 300, most_vectors = 100;
     constexpr double tolerance = 1e-13; // of what the grips do where nothing else moves
-    Vector of_grips(2 * u.size()), residual(2 * u.size()), change(2 * u.size());
+    Vector of_grips(dim * u.size()), residual(dim * u.size()), change(dim * u.size());
     put(forces(network.constrained), network, of_grips);
     put(forces(u), network, residual);
-    const Map stiffness{network,
-                        [&](const NodeField &v)
-                        {
-                          NodeField f = forces(v);
-                          for (Tensor<1, 2> &one : f)
-                            one = -one;
-                          equations.add_holds(v, f);
-                          return f;
-                        }},
-        flexibility{network, [&](const NodeField &f)
+    const Map<dim> stiffness{network,
+                             [&](const NodeField<dim> &v)
+                             {
+                               NodeField<dim> f = forces(v);
+                               for (Tensor<1, dim> &one : f)
+                                 one = -one;
+                               equations.add_holds(v, f);
+                               return f;
+                             }},
+        flexibility{network, [&](const NodeField<dim> &f)
                     {
                       auto v = equations.displacements(f);
                       return v ? std::move(*v) : throw Singular();
@@ -126,9 +134,23 @@ namespace plumbline::meshfree
     {
       return {};
     }
-    const NodeField step = to_field(change);
+    const NodeField<dim> step = to_field<dim>(change);
     for (std::size_t i = 0; i < u.size(); ++i)
       u[i] += step[i];
     return control.last_step();
   }
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::vector<double> dilatations(const BondNetwork<dim> &, const Connections<dim> &,     \
+                                           const NodeField<dim> &);                                \
+  template Tensor<1, dim> force(const BondNetwork<dim> &, const BondNetwork<dim>::Bond &,          \
+                                const NodeField<dim> &, const std::vector<double> &);              \
+  template NodeField<dim> forces(const BondNetwork<dim> &, const Connections<dim> &,               \
+                                 const NodeField<dim> &, const std::vector<double> &);             \
+  template std::optional<unsigned int> equilibrate(                                                \
+      const std::function<NodeField<dim>(const NodeField<dim> &)> &, Iteration,                    \
+      const BondNetwork<dim> &, const NetworkEquations<dim> &, NodeField<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace plumbline::meshfree

@@ -6,18 +6,23 @@
 
 namespace plumbline::meshfree
 {
+  // Instantiated for dim = 2 and 3.
+
   /// θ of all nodes by what is whole; empty where there is no dilatation.
-  std::vector<double> dilatations(const BondNetwork &network, const Connections &connections,
-                                  const NodeField &u);
+  template <int dim>
+  std::vector<double> dilatations(const BondNetwork<dim> &network,
+                                  const Connections<dim> &connections, const NodeField<dim> &u);
 
   /// What a whole bond pulls its first node with, k way (way·Δu) + share ξ (τ θ + τ' θ').
   /// @param theta  may be empty where there is no dilatation
-  Tensor<1, 2> force(const BondNetwork &network, const BondNetwork::Bond &bond, const NodeField &u,
-                     const std::vector<double> &theta);
+  template <int dim>
+  Tensor<1, dim> force(const BondNetwork<dim> &network, const typename BondNetwork<dim>::Bond &bond,
+                       const NodeField<dim> &u, const std::vector<double> &theta);
 
   /// Of what is whole, on all nodes, without surface terms.
-  NodeField forces(const BondNetwork &network, const Connections &connections, const NodeField &u,
-                   const std::vector<double> &theta);
+  template <int dim>
+  NodeField<dim> forces(const BondNetwork<dim> &network, const Connections<dim> &connections,
+                        const NodeField<dim> &u, const std::vector<double> &theta);
 
   /// Conjugate gradients are for forces that have an energy.
   enum class Iteration
@@ -31,7 +36,9 @@ namespace plumbline::meshfree
   /// @param forces     a linear map of displacements, of all nodes
   /// @param equations  up to date
   /// @return           iterations; empty: too many, or the equations have become singular
-  std::optional<unsigned int> equilibrate(const std::function<NodeField(const NodeField &)> &forces,
-                                          Iteration iteration, const BondNetwork &network,
-                                          const NetworkEquations &equations, NodeField &u);
+  template <int dim>
+  std::optional<unsigned int>
+  equilibrate(const std::function<NodeField<dim>(const NodeField<dim> &)> &forces,
+              Iteration iteration, const BondNetwork<dim> &network,
+              const NetworkEquations<dim> &equations, NodeField<dim> &u);
 } // namespace plumbline::meshfree

@@ -9,30 +9,30 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using Bond = BondNetwork::Bond;
-    using Form = NetworkTerms::Form;
-
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     constexpr double parallel = 1e-12; ///< sine of an angle below which directions are the same
 
     /// Factored when made, and changed by Woodbury's formula for bonds that break later, a row for
     /// each; with dilatations also one for each node that lost one.
-    class FactoredEquations : public NetworkEquations
+    template <int dim>
+    class FactoredEquations : public NetworkEquations<dim>
     {
     public:
-      FactoredEquations(const BondNetwork &network, Connections &connections);
+      FactoredEquations(const BondNetwork<dim> &network, Connections<dim> &connections);
 
-      void take_out(const std::vector<std::size_t> &bonds, const Connections &connections) override;
-      std::optional<Solution> solve(const NodeField &start) const override;
-      std::optional<NodeField> displacements(const NodeField &forces) const override;
-      void add_holds(const NodeField &u, NodeField &forces) const override;
+      void take_out(const std::vector<std::size_t> &bonds,
+                    const Connections<dim> &connections) override;
+      std::optional<typename NetworkEquations<dim>::Solution>
+      solve(const NodeField<dim> &start) const override;
+      std::optional<NodeField<dim>> displacements(const NodeField<dim> &forces) const override;
+      void add_holds(const NodeField<dim> &u, NodeField<dim> &forces) const override;
       std::size_t rank() const override { return cholesky_->rank(); }
       std::size_t n_unknowns() const override { return terms_.n_unknowns(); }
       double making_seconds() const override { return cholesky_->factor_seconds(); }
       double update_seconds(std::size_t n_bonds, unsigned int n_iterations) const override;
 
     private:
-      void factor(Connections &connections);
+      void factor(Connections<dim> &connections);
 
       /// What bonds that were taken out change, as S of UpdatedCholesky.
       struct Taken
@@ -43,18 +43,20 @@ namespace plumbline::meshfree
       };
       std::vector<double> change() const;
 
-      const BondNetwork *network_;
-      NetworkTerms terms_;
-      Connections then_; ///< when it was factored
+      const BondNetwork<dim> *network_;
+      NetworkTerms<dim> terms_;
+      Connections<dim> then_; ///< when it was factored
       std::optional<algebra::UpdatedCholesky> cholesky_;
       std::vector<double> x0_, offsets_;
       std::vector<Taken> taken_;
       std::vector<std::size_t> node_rows_; ///< row of each node's dilatation, or none
       std::vector<std::size_t> hold_rows_;
-      std::vector<Connections::Hold> holds_; ///< of the connections, seen so far
+      std::vector<typename Connections<dim>::Hold> holds_; ///< of the connections, seen so far
     };
 
-    FactoredEquations::FactoredEquations(const BondNetwork &network, Connections &connections)
+    template <int dim>
+    FactoredEquations<dim>::FactoredEquations(const BondNetwork<dim> &network,
+                                              Connections<dim> &connections)
         : network_(&network), terms_(network), then_(connections),
           node_rows_(network.dilatation.size(), none)
     {
@@ -62,12 +64,13 @@ namespace plumbline::meshfree
       holds_ = connections.holds();
     }
 
-    void FactoredEquations::factor(Connections &connections)
+    template <int dim>
+    void FactoredEquations<dim>::factor(Connections<dim> &connections)
     {
       constexpr int most_mechanisms = 100; // more are no exception but the body's state
       for (int i = 0; i < most_mechanisms; ++i)
       {
-        const NetworkTerms::Terms all = terms_.all(connections);
+        const typename NetworkTerms<dim>::Terms all = terms_.all(connections);
         cholesky_ = algebra::UpdatedCholesky::factor(all.rows, all.factors, n_unknowns());
         if (cholesky_)
         {
@@ -88,8 +91,9 @@ namespace plumbline::meshfree
                            "load, min reaction)");
     }
 
-    void FactoredEquations::take_out(const std::vector<std::size_t> &bonds,
-                                     const Connections &connections)
+    template <int dim>
+    void FactoredEquations<dim>::take_out(const std::vector<std::size_t> &bonds,
+                                          const Connections<dim> &connections)
     {
       algebra::CsrMatrix rows;
       const auto add_row = [&](Form form)
@@ -100,7 +104,7 @@ namespace plumbline::meshfree
       };
       for (const std::size_t b : bonds)
       {
-        const Bond &bond = network_->bonds[b];
+        const typename BondNetwork<dim>::Bond &bond = network_->bonds[b];
         Form form;
         terms_.add(form, bond, bond.way);
         const std::size_t row = add_row(std::move(form));
@@ -127,14 +131,15 @@ namespace plumbline::meshfree
     }
 
     // of a node θ₀ - Σ s d is squared instead of θ₀, the sum over bonds that were taken out
-    std::vector<double> FactoredEquations::change() const
+    template <int dim>
+    std::vector<double> FactoredEquations<dim>::change() const
     {
       const std::size_t r = offsets_.size();
       std::vector<double> S(r * r);
       std::vector<std::vector<const Taken *>> of_node(network_->dilatation.size());
       for (const Taken &one : taken_)
       {
-        const Bond &bond = network_->bonds[one.bond];
+        const typename BondNetwork<dim>::Bond &bond = network_->bonds[one.bond];
         S[one.row * r + one.row] -= bond.stiffness;
         if (!of_node.empty())
           for (const unsigned int node : {bond.from, bond.to})
@@ -157,16 +162,19 @@ namespace plumbline::meshfree
       return S;
     }
 
-    std::optional<NetworkEquations::Solution>
-    FactoredEquations::solve(const NodeField & /*start*/) const
+    template <int dim>
+    std::optional<typename NetworkEquations<dim>::Solution>
+    FactoredEquations<dim>::solve(const NodeField<dim> & /*start*/) const
     {
       const auto x = cholesky_->updated(x0_, offsets_);
       if (!x)
         return {};
-      return Solution{terms_.displacements(*x), 0};
+      return typename NetworkEquations<dim>::Solution{terms_.displacements(*x), 0};
     }
 
-    std::optional<NodeField> FactoredEquations::displacements(const NodeField &forces) const
+    template <int dim>
+    std::optional<NodeField<dim>>
+    FactoredEquations<dim>::displacements(const NodeField<dim> &forces) const
     {
       const auto x = cholesky_->updated(cholesky_->solve(terms_.free(forces)),
                                         std::vector<double>(offsets_.size()));
@@ -175,13 +183,16 @@ namespace plumbline::meshfree
       return terms_.expand(*x);
     }
 
-    void FactoredEquations::add_holds(const NodeField &u, NodeField &forces) const
+    template <int dim>
+    void FactoredEquations<dim>::add_holds(const NodeField<dim> &u, NodeField<dim> &forces) const
     {
-      for (const Connections::Hold &hold : holds_)
+      for (const typename Connections<dim>::Hold &hold : holds_)
         terms_.add_hold(hold, u, forces);
     }
 
-    double FactoredEquations::update_seconds(std::size_t n_bonds, unsigned int n_iterations) const
+    template <int dim>
+    double FactoredEquations<dim>::update_seconds(std::size_t n_bonds,
+                                                  unsigned int n_iterations) const
     {
       // an iteration's solve is needed after a factorisation as well, what rows add to it is not
       const std::size_t r = rank() + n_bonds;
@@ -190,9 +201,15 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::unique_ptr<NetworkEquations> factored_equations(const BondNetwork &network,
-                                                       Connections &connections)
+  template <int dim>
+  std::unique_ptr<NetworkEquations<dim>> factored_equations(const BondNetwork<dim> &network,
+                                                            Connections<dim> &connections)
   {
-    return std::make_unique<FactoredEquations>(network, connections);
+    return std::make_unique<FactoredEquations<dim>>(network, connections);
   }
+
+  template std::unique_ptr<NetworkEquations<2>> factored_equations(const BondNetwork<2> &,
+                                                                   Connections<2> &);
+  template std::unique_ptr<NetworkEquations<3>> factored_equations(const BondNetwork<3> &,
+                                                                   Connections<3> &);
 } // namespace plumbline::meshfree

@@ -8,31 +8,34 @@ namespace plumbline::meshfree
   {
     using Vector = algebra::Multigrid::Vector;
 
-    class MultigridEquations : public NetworkEquations
+    template <int dim>
+    class MultigridEquations : public NetworkEquations<dim>
     {
     public:
-      MultigridEquations(const BondNetwork &network, const Connections &connections)
+      using Solution = typename NetworkEquations<dim>::Solution;
+
+      MultigridEquations(const BondNetwork<dim> &network, const Connections<dim> &connections)
           : network_(&network), connections_(&connections), terms_(network),
-            ranges_(terms_.n_unknowns(), 2, base::Communicator::alone())
+            ranges_(terms_.n_unknowns(), dim, base::Communicator::alone())
       {
-        const NetworkTerms::Terms all = terms_.all(connections);
+        const typename NetworkTerms<dim>::Terms all = terms_.all(connections);
         const algebra::CsrMatrix matrix =
             algebra::normal_matrix(all.rows, all.factors, terms_.n_unknowns());
         n_entries_ = matrix.value.size();
-        cycle_.emplace(matrix, ranges_, 2, terms_.free_nodes());
+        cycle_.emplace(matrix, ranges_, dim, terms_.free_nodes());
       }
 
       void take_out(const std::vector<std::size_t> &bonds,
-                    const Connections & /*the same*/) override
+                    const Connections<dim> & /*the same*/) override
       {
         n_taken_ += bonds.size();
       }
 
-      std::optional<Solution> solve(const NodeField &start) const override
+      std::optional<Solution> solve(const NodeField<dim> &start) const override
       {
         Solution solution{start, 0};
-        const auto n = equilibrate(
-            [this](const NodeField &u) {
+        const auto n = equilibrate<dim>(
+            [this](const NodeField<dim> &u) {
               return forces(*network_, *connections_, u, dilatations(*network_, *connections_, u));
             },
             Iteration::conjugate_gradients, *network_, *this, solution.u);
@@ -42,7 +45,7 @@ namespace plumbline::meshfree
         return solution;
       }
 
-      std::optional<NodeField> displacements(const NodeField &forces) const override
+      std::optional<NodeField<dim>> displacements(const NodeField<dim> &forces) const override
       {
         const std::vector<double> given = terms_.free(forces);
         Vector b(ranges_.own(), MPI_COMM_SELF), x(b);
@@ -51,9 +54,9 @@ namespace plumbline::meshfree
         return terms_.expand({x.begin(), x.end()});
       }
 
-      void add_holds(const NodeField &u, NodeField &forces) const override
+      void add_holds(const NodeField<dim> &u, NodeField<dim> &forces) const override
       {
-        for (const Connections::Hold &hold : connections_->holds())
+        for (const typename Connections<dim>::Hold &hold : connections_->holds())
           terms_.add_hold(hold, u, forces);
       }
 
@@ -73,18 +76,24 @@ namespace plumbline::meshfree
       }
 
     private:
-      const BondNetwork *network_;
-      const Connections *connections_;
-      NetworkTerms terms_;
+      const BondNetwork<dim> *network_;
+      const Connections<dim> *connections_;
+      NetworkTerms<dim> terms_;
       algebra::OwnedRanges ranges_;
       std::optional<algebra::Multigrid> cycle_;
       std::size_t n_entries_ = 0, n_taken_ = 0;
     };
   } // namespace
 
-  std::unique_ptr<NetworkEquations> multigrid_equations(const BondNetwork &network,
-                                                        const Connections &connections)
+  template <int dim>
+  std::unique_ptr<NetworkEquations<dim>> multigrid_equations(const BondNetwork<dim> &network,
+                                                             const Connections<dim> &connections)
   {
-    return std::make_unique<MultigridEquations>(network, connections);
+    return std::make_unique<MultigridEquations<dim>>(network, connections);
   }
+
+  template std::unique_ptr<NetworkEquations<2>> multigrid_equations(const BondNetwork<2> &,
+                                                                    const Connections<2> &);
+  template std::unique_ptr<NetworkEquations<3>> multigrid_equations(const BondNetwork<3> &,
+                                                                    const Connections<3> &);
 } // namespace plumbline::meshfree

@@ -9,13 +9,14 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using NetworkBond = BondNetwork::Bond;
+    using NetworkBond = BondNetwork<2>::Bond;
 
     /// Sides of cells, joined to straight runs.
     class CellSides
     {
     public:
-      explicit CellSides(const BondNetwork &network) : h_(network.h), origin_(network.nodes.front())
+      explicit CellSides(const BondNetwork<2> &network)
+          : h_(network.h), origin_(network.nodes.front())
       {
       }
 
@@ -61,7 +62,7 @@ namespace plumbline::meshfree
     };
   } // namespace
 
-  Faces find_faces(const BondNetwork &network, const Connections &connections)
+  Faces find_faces(const BondNetwork<2> &network, const Connections<2> &connections)
   {
     /// A notch ends within a cell of where the sides of cells begin that go on with it.
     const double gap = .75 * network.h;

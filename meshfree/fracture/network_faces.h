@@ -9,5 +9,5 @@ namespace plumbline::meshfree
   /// neighbours in a row or column whose bond is broken. What grew at an angle to rows and columns
   /// is a staircase of them, at whose steps Foot::is_near_end holds.
   /// @pre network.surfaces
-  Faces find_faces(const BondNetwork &network, const Connections &connections);
+  Faces find_faces(const BondNetwork<2> &network, const Connections<2> &connections);
 } // namespace plumbline::meshfree

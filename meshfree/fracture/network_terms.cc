@@ -4,30 +4,32 @@
 
 namespace plumbline::meshfree
 {
-  NetworkTerms::NetworkTerms(const BondNetwork &network) : network_(&network)
+  template <int dim>
+  NetworkTerms<dim>::NetworkTerms(const BondNetwork<dim> &network) : network_(&network)
   {
     for (const int grip : network.grip)
     {
       unknown_.push_back(grip < 0 ? static_cast<int>(n_unknowns_) : -1);
-      n_unknowns_ += grip < 0 ? 2 : 0;
+      n_unknowns_ += grip < 0 ? dim : 0;
     }
-    for (const BondNetwork::Bond &bond : network.bonds)
+    for (const typename BondNetwork<dim>::Bond &bond : network.bonds)
       hold_stiffness_ = std::max(hold_stiffness_, bond.stiffness);
   }
 
-  void NetworkTerms::add(Form &form, const BondNetwork::Bond &bond,
-                         const Tensor<1, 2> &direction) const
+  template <int dim>
+  void NetworkTerms<dim>::add(Form &form, const typename BondNetwork<dim>::Bond &bond,
+                              const Tensor<1, dim> &direction) const
   {
     for (const auto &[node, sign] : {std::pair(bond.to, 1.), std::pair(bond.from, -1.)})
       if (unknown_[node] >= 0)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
           form.entries.emplace_back(unknown_[node] + d, sign * direction[d]);
       else
         form.offset += sign * (direction * network_->constrained[node]);
   }
 
-  NetworkTerms::Form NetworkTerms::dilatation(std::size_t node,
-                                              const Connections &connections) const
+  template <int dim>
+  Form NetworkTerms<dim>::dilatation(std::size_t node, const Connections<dim> &connections) const
   {
     Form form;
     const auto [begin, end] = connections.bonds_of(node);
@@ -37,13 +39,19 @@ namespace plumbline::meshfree
     return form;
   }
 
-  NetworkTerms::Form NetworkTerms::position(const Connections::Hold &hold) const
+  template <int dim>
+  Form NetworkTerms<dim>::position(const typename Connections<dim>::Hold &hold) const
   {
     const auto first = static_cast<unsigned int>(unknown_[hold.node]);
-    return {{{first, hold.direction[0]}, {first + 1, hold.direction[1]}}, 0};
+    Form form;
+    for (unsigned int d = 0; d < dim; ++d)
+      form.entries.emplace_back(first + d, hold.direction[d]);
+    return form;
   }
 
-  NetworkTerms::Terms NetworkTerms::all(const Connections &connections) const
+  template <int dim>
+  typename NetworkTerms<dim>::Terms
+  NetworkTerms<dim>::all(const Connections<dim> &connections) const
   {
     Terms result;
     const auto add_term = [&](double factor, Form form)
@@ -61,55 +69,63 @@ namespace plumbline::meshfree
       }
     for (std::size_t i = 0; i < network_->dilatation.size(); ++i)
       add_term(network_->dilatation[i], dilatation(i, connections));
-    for (const Connections::Hold &hold : connections.holds())
+    for (const typename Connections<dim>::Hold &hold : connections.holds())
       add_term(hold_stiffness_, position(hold));
     return result;
   }
 
-  void NetworkTerms::add_hold(const Connections::Hold &hold, const NodeField &u,
-                              NodeField &forces) const
+  template <int dim>
+  void NetworkTerms<dim>::add_hold(const typename Connections<dim>::Hold &hold,
+                                   const NodeField<dim> &u, NodeField<dim> &forces) const
   {
     forces[hold.node] += hold_stiffness_ * (hold.direction * u[hold.node]) * hold.direction;
   }
 
-  std::vector<double> NetworkTerms::free(const NodeField &field) const
+  template <int dim>
+  std::vector<double> NetworkTerms<dim>::free(const NodeField<dim> &field) const
   {
     std::vector<double> x(n_unknowns_);
     for (std::size_t i = 0; i < unknown_.size(); ++i)
       if (unknown_[i] >= 0)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
           x[static_cast<std::size_t>(unknown_[i]) + d] = field[i][d];
     return x;
   }
 
-  NodeField NetworkTerms::expand(const std::vector<double> &x) const
+  template <int dim>
+  NodeField<dim> NetworkTerms<dim>::expand(const std::vector<double> &x) const
   {
-    NodeField u(unknown_.size());
+    NodeField<dim> u(unknown_.size());
     for (std::size_t i = 0; i < u.size(); ++i)
       if (unknown_[i] >= 0)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
           u[i][d] = x[static_cast<std::size_t>(unknown_[i]) + d];
     return u;
   }
 
-  NodeField NetworkTerms::displacements(const std::vector<double> &x) const
+  template <int dim>
+  NodeField<dim> NetworkTerms<dim>::displacements(const std::vector<double> &x) const
   {
-    NodeField u = expand(x);
+    NodeField<dim> u = expand(x);
     for (std::size_t i = 0; i < u.size(); ++i)
       u[i] += network_->constrained[i];
     return u;
   }
 
-  std::vector<Point<2>> NetworkTerms::free_nodes() const
+  template <int dim>
+  std::vector<Point<dim>> NetworkTerms<dim>::free_nodes() const
   {
-    std::vector<Point<2>> nodes;
+    std::vector<Point<dim>> nodes;
     for (std::size_t i = 0; i < unknown_.size(); ++i)
       if (unknown_[i] >= 0)
         nodes.push_back(network_->nodes[i]);
     return nodes;
   }
 
-  void append(algebra::CsrMatrix &rows, NetworkTerms::Form form)
+  template class NetworkTerms<2>;
+  template class NetworkTerms<3>;
+
+  void append(algebra::CsrMatrix &rows, Form form)
   {
     std::sort(form.entries.begin(), form.entries.end());
     if (rows.start.empty())

@@ -16,11 +16,11 @@ namespace plumbline::meshfree
 
     /// The strip with all that is constrained around it, which moves with the nearer grip or the
     /// field.
-    BreakingSolid make_solid(const RiceStrip &strip, int reach)
+    BreakingSolid<2> make_solid(const RiceStrip &strip, int reach)
     {
       const double half = .5 * strip.h * strip.n_height, length = strip.h * strip.n_length,
                    out = strip.h * reach;
-      BreakingSolid solid;
+      BreakingSolid<2> solid;
       solid.domain.include = {{{-out, -half - out}, {length + out, half + out}}};
       solid.grips = {{{-out, half}, {length + out, half + out}},
                      {{-out, -half - out}, {length + out, -half}},
@@ -48,7 +48,7 @@ namespace plumbline::meshfree
       double at_end = 0; ///< half of its bonds that cross a line
     };
 
-    IntactStrip solve_intact(const RiceStrip &strip, int reach, const BondNetwork &network)
+    IntactStrip solve_intact(const RiceStrip &strip, int reach, const BondNetwork<2> &network)
     {
       const int n = strip.n_height + 2 * reach;
       const auto row = [&](unsigned int node) {
@@ -58,7 +58,7 @@ namespace plumbline::meshfree
       const double x = strip.h * (strip.n_length - .5); // of a column whose bonds are all there
       Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n), across = all;
       const auto is_constrained = [&](Eigen::Index i) { return i < reach || i >= n - reach; };
-      for (const BondNetwork::Bond &bond : network.bonds)
+      for (const BondNetwork<2>::Bond &bond : network.bonds)
         if (std::abs(network.nodes[bond.from][0] - x) < .5 * strip.h)
         {
           const Eigen::Index i = row(bond.from), j = row(bond.to);
@@ -86,7 +86,7 @@ namespace plumbline::meshfree
   {
     // partial areas reach a cell farther
     const int reach = static_cast<int>(std::ceil(influence.horizon() / strip.h - 1e-9)) + 1;
-    BondNetwork network =
+    BondNetwork<2> network =
         make_bond_network(make_solid(strip, reach), rule, influence, strip.h, Backend::fast);
     method::StripState state;
     if (strip.K_tip)
@@ -102,16 +102,16 @@ namespace plumbline::meshfree
           network.constrained[i][1] =
               intact.u[std::lround((network.nodes[i][1] + half) / strip.h - .5) + reach];
     }
-    const BreakingNetwork body(std::move(network), problem::Stretch::linear);
+    const BreakingNetwork<2> body(std::move(network), problem::Stretch::linear);
     constexpr double worst_residual = 1e-10;
     if (!(body.response().residual <= worst_residual))
       throw NumericalError("a strip with a crack is solved to a residual of " +
                            std::to_string(body.response().residual) + " only");
-    const BondNetwork &solved = body.network();
+    const BondNetwork<2> &solved = body.network();
     const std::vector<Tensor<1, 2>> &u = body.displacements();
 
     state.n_unknowns = body.n_unknowns();
-    for (const BondNetwork::Bond &bond : solved.bonds)
+    for (const BondNetwork<2>::Bond &bond : solved.bonds)
       if (solved.grip[bond.from] < 0 || solved.grip[bond.to] < 0)
       {
         const double pull = bond.way * (u[bond.to] - u[bond.from]);

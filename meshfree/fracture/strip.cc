@@ -4,12 +4,12 @@
 
 namespace plumbline::meshfree
 {
-  BreakingSolid make_strip(const method::RiceStrip &strip, const physics::Lame &lame,
-                           double horizon)
+  BreakingSolid<2> make_strip(const method::RiceStrip &strip, const physics::Lame &lame,
+                              double horizon)
   {
     const double h = strip.h, half = .5 * h * strip.n_height, length = h * strip.n_length,
                  grip = 2 * h * std::ceil(horizon / h - 1e-9);
-    BreakingSolid solid;
+    BreakingSolid<2> solid;
     solid.domain.include = {{{0, -half - grip}, {length, half + grip}}};
     solid.grips = {{{0, half}, {length, half + grip}}, {{0, -half - grip}, {length, -half}}};
     if (strip.n_crack > 0)

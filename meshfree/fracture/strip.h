@@ -7,6 +7,6 @@ namespace plumbline::meshfree
 {
   /// Its ends are free.
   /// @param horizon  the grips' thickness at least, twice as thick for dilatations
-  BreakingSolid make_strip(const method::RiceStrip &strip, const physics::Lame &lame,
-                           double horizon);
+  BreakingSolid<2> make_strip(const method::RiceStrip &strip, const physics::Lame &lame,
+                              double horizon);
 } // namespace plumbline::meshfree

@@ -15,11 +15,11 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using NetworkBond = BondNetwork::Bond;
+    using NetworkBond = BondNetwork<2>::Bond;
 
     /// Each from a node that lacks it; of what hangs loose none.
-    std::vector<NetworkBond> missing_bonds(const BondNetwork &network,
-                                           const Connections &connections)
+    std::vector<NetworkBond> missing_bonds(const BondNetwork<2> &network,
+                                           const Connections<2> &connections)
     {
       std::vector<NetworkBond> missing = network.surfaces->gaps;
       for (std::size_t b = 0; b < network.bonds.size(); ++b)
@@ -36,14 +36,14 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  SurfaceForces::SurfaceForces(const BondNetwork &network, const Connections &connections)
+  SurfaceForces::SurfaceForces(const BondNetwork<2> &network, const Connections<2> &connections)
       : network_(&network), connections_(&connections),
         correction_(network.nodes.size(), Tensor<2, 2>(dealii::unit_symmetric_tensor<2>())),
         pull_(network.nodes.size()), dilating_(network.nodes.size())
   {
     std::iota(dilating_.begin(), dilating_.end(), 0U);
     const std::vector<NetworkBond> missing = missing_bonds(network, connections);
-    const NodeField normal = correct(missing);
+    const NodeField<2> normal = correct(missing);
     if (network.surfaces->terms == problem::SurfaceTerms::published)
       add_published(missing, normal);
     if (network.surfaces->terms == problem::SurfaceTerms::consistent)
@@ -51,7 +51,7 @@ namespace plumbline::meshfree
   }
 
   void SurfaceForces::add_published(const std::vector<NetworkBond> &missing,
-                                    const NodeField &normal)
+                                    const NodeField<2> &normal)
   {
     const double V = network_->h * network_->h;
     for (const NetworkBond &bond : missing)
@@ -114,12 +114,12 @@ namespace plumbline::meshfree
   }
 
   /// M of nodes that lack bonds; their normals, 0 where bonds are missing on all sides alike.
-  NodeField SurfaceForces::correct(const std::vector<NetworkBond> &missing)
+  NodeField<2> SurfaceForces::correct(const std::vector<NetworkBond> &missing)
   {
     constexpr double collinear = 1e-10, no_direction = 1e-8;
     const std::size_t n = network_->nodes.size();
     std::vector<Tensor<2, 2>> shape(n);
-    NodeField outward(n);
+    NodeField<2> outward(n);
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
       if (connections_->is_whole(b))
       {
@@ -146,7 +146,7 @@ namespace plumbline::meshfree
     return outward;
   }
 
-  std::vector<double> SurfaceForces::dilatations(const NodeField &u) const
+  std::vector<double> SurfaceForces::dilatations(const NodeField<2> &u) const
   {
     std::vector<double> theta(u.size());
     for (std::size_t b = 0; b < network_->bonds.size(); ++b)
@@ -160,19 +160,19 @@ namespace plumbline::meshfree
     return theta;
   }
 
-  NodeField SurfaceForces::forces(const NodeField &u) const
+  NodeField<2> SurfaceForces::forces(const NodeField<2> &u) const
   {
     const std::vector<double> theta = dilatations(u);
-    NodeField force = meshfree::forces(*network_, *connections_, u, theta);
+    NodeField<2> force = meshfree::forces(*network_, *connections_, u, theta);
     for (std::size_t i = 0; i < u.size(); ++i)
       force[i] += theta[dilating_[i]] * pull_[i];
     return force;
   }
 
-  NodeField SurfaceForces::terms(const NodeField &u) const
+  NodeField<2> SurfaceForces::terms(const NodeField<2> &u) const
   {
     const std::vector<double> theta = dilatations(u);
-    NodeField result(u.size());
+    NodeField<2> result(u.size());
     for (std::size_t i = 0; i < u.size(); ++i)
       result[i] = theta[dilating_[i]] * pull_[i];
     return result;

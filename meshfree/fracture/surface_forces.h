@@ -21,21 +21,22 @@ namespace plumbline::meshfree
   {
   public:
     /// Of what is whole. @pre network.surfaces
-    SurfaceForces(const BondNetwork &network, const Connections &connections);
+    SurfaceForces(const BondNetwork<2> &network, const Connections<2> &connections);
 
     /// On all nodes; shape (n_nodes) as u.
-    NodeField forces(const NodeField &u) const;
-    NodeField terms(const NodeField &u) const; ///< their part of what is missing
-    std::vector<double> dilatations(const NodeField &u) const;
+    NodeField<2> forces(const NodeField<2> &u) const;
+    NodeField<2> terms(const NodeField<2> &u) const; ///< their part of what is missing
+    std::vector<double> dilatations(const NodeField<2> &u) const;
 
   private:
-    NodeField correct(const std::vector<BondNetwork::Bond> &missing);
-    void add_published(const std::vector<BondNetwork::Bond> &missing, const NodeField &normal);
-    void add_consistent(const std::vector<BondNetwork::Bond> &missing);
+    NodeField<2> correct(const std::vector<BondNetwork<2>::Bond> &missing);
+    void add_published(const std::vector<BondNetwork<2>::Bond> &missing,
+                       const NodeField<2> &normal);
+    void add_consistent(const std::vector<BondNetwork<2>::Bond> &missing);
     unsigned int node_of_face(unsigned int node, const Point<2> &foot) const;
 
-    const BondNetwork *network_;
-    const Connections *connections_;
+    const BondNetwork<2> *network_;
+    const Connections<2> *connections_;
     std::vector<Tensor<2, 2>> correction_;
     std::vector<Tensor<1, 2>> pull_;     ///< on a node by a dilatation, of what is missing
     std::vector<unsigned int> dilating_; ///< the node whose dilatation that is

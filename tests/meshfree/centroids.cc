@@ -168,14 +168,14 @@ TEST(Centroids, of_cracks_that_grow_are_where_stiffness_is_taken_not_stretches)
 {
   const Kernel<2> of_plate = growth_plate::influence(2.3 * growth_plate::h),
                   deviatoric = physics::deviatoric_kernel(of_plate, 1);
-  const BondNetwork net = make_bond_network(growth_plate::plate(12, 12, 3 * growth_plate::h, .35),
-                                            improved_partial_area(deviatoric), of_plate,
-                                            growth_plate::h, Backend::fast);
+  const BondNetwork<2> net = make_bond_network(
+      growth_plate::plate(12, 12, 3 * growth_plate::h, .35), improved_partial_area(deviatoric),
+      of_plate, growth_plate::h, Backend::fast);
   const Bonds<2> all =
       lattice_bonds(improved_partial_area(deviatoric), deviatoric, growth_plate::h, Backend::fast);
   std::size_t n_seen = 0;
   for (const Bond<2> &bond : all.family)
-    for (const BondNetwork::Bond &one : net.bonds)
+    for (const BondNetwork<2>::Bond &one : net.bonds)
       if ((one.xi - bond.xi).norm() < 1e-9 * growth_plate::h)
       {
         ++n_seen;

@@ -24,9 +24,9 @@ namespace
   }
 
   /// Free nodes 0, 1, ..., each with bonds in some directions to nodes that a grip holds.
-  BondNetwork network(const std::vector<std::vector<double>> &angles)
+  BondNetwork<2> network(const std::vector<std::vector<double>> &angles)
   {
-    BondNetwork result;
+    BondNetwork<2> result;
     result.h = 1;
     result.horizon = 2;
     const auto add_node = [&](const Point<2> &x, int grip)
@@ -54,7 +54,7 @@ TEST(Connections, hold_a_node_across_bonds_that_lie_on_a_line)
   for (const double angle : {0., .3, 1.1, 2.5, 4.7})
   {
     // opposite bonds, rounding apart; bonds that cross at 1e-6 and 1e-3
-    const Connections connections(network(
+    const Connections<2> connections(network(
         {{angle, angle + M_PI}, {angle, angle + 1e-6}, {angle, angle + 1e-3}, {angle, angle + 2}}));
     ASSERT_EQ(connections.holds().size(), 2u) << angle;
     for (const std::size_t node : {0, 1})
@@ -69,7 +69,7 @@ TEST(Connections, hold_a_node_across_bonds_that_lie_on_a_line)
 
 TEST(Connections, a_mechanism_is_held_where_it_moves_most_and_loose_where_it_moves)
 {
-  Connections connections(network({{0, 1}, {0, 1}, {0, 1}, {0, 1}}));
+  Connections<2> connections(network({{0, 1}, {0, 1}, {0, 1}, {0, 1}}));
   ASSERT_TRUE(connections.holds().empty());
   std::vector<Tensor<1, 2>> mode(12); // of a factor of rounding 1e-12: node 2 stands still
   mode[0] = 1e-3 * direction(.5);
@@ -88,12 +88,12 @@ TEST(Connections, a_mechanism_is_held_where_it_moves_most_and_loose_where_it_mov
 TEST(Connections, what_is_loose_is_held_as_stiffly_as_the_stiffest_bond)
 {
   // so that holds make no matrix worse conditioned than bonds do
-  const BondNetwork net = network({{0, M_PI}, {0, 1}});
-  const Connections connections(net);
-  const meshfree::NetworkTerms terms(net);
+  const BondNetwork<2> net = network({{0, M_PI}, {0, 1}});
+  const Connections<2> connections(net);
+  const meshfree::NetworkTerms<2> terms(net);
   ASSERT_EQ(connections.holds().size(), 1u);
   double stiffest = 0;
-  for (const BondNetwork::Bond &bond : net.bonds)
+  for (const BondNetwork<2>::Bond &bond : net.bonds)
     stiffest = std::max(stiffest, bond.stiffness);
   EXPECT_EQ(terms.all(connections).factors.back(), stiffest);
   std::vector<Tensor<1, 2>> u(net.nodes.size()), forces(net.nodes.size());

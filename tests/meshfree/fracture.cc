@@ -30,7 +30,7 @@ namespace
   const double inf = std::numeric_limits<double>::infinity();
 
   /// The same by a factorisation at every event, written without the library.
-  std::vector<Event> by_brute_force(const BondNetwork &net, std::size_t n_events)
+  std::vector<Event> by_brute_force(const BondNetwork<2> &net, std::size_t n_events)
   {
     using Sparse = Eigen::SparseMatrix<double>;
     std::vector<int> unknown;
@@ -117,9 +117,9 @@ namespace
   }
 
   /// Two layers, the crack between them.
-  BreakingSolid layers(int n1, int n2, double notch)
+  BreakingSolid<2> layers(int n1, int n2, double notch)
   {
-    BreakingSolid solid = plate(n1, n2, notch, .25);
+    BreakingSolid<2> solid = plate(n1, n2, notch, .25);
     solid.material = [](const Point<2> &x)
     {
       return x[1] > 0 ? physics::lame_from_young(3, .1, physics::PlaneState::strain)
@@ -128,10 +128,10 @@ namespace
     return solid;
   }
 
-  void expect_same_as_brute_force(const BreakingSolid &solid, std::size_t n_events)
+  void expect_same_as_brute_force(const BreakingSolid<2> &solid, std::size_t n_events)
   {
-    const BondNetwork net = network(solid);
-    BreakingNetwork body(net, problem::Stretch::linear);
+    const BondNetwork<2> net = network(solid);
+    BreakingNetwork<2> body(net, problem::Stretch::linear);
     const Growth growth = grow(body, rules());
     ASSERT_GE(growth.events.size(), n_events);
     EXPECT_LT(body.work().n_factorisations, growth.events.size() / 5);
@@ -171,10 +171,10 @@ TEST(Fracture, layers_have_the_energy_of_their_local_limit)
   {
     const auto energy = [&](int n1)
     {
-      const BondNetwork net = make_bond_network(
+      const BondNetwork<2> net = make_bond_network(
           layers(n1, n + 6, 0), meshfree::optimisation_based(physics::deviatoric_kernel(K, 1)), K,
           h, geometry::Backend::fast);
-      return BreakingNetwork(net, problem::Stretch::linear).response().energy;
+      return BreakingNetwork<2>(net, problem::Stretch::linear).response().energy;
     };
     const double of_length = (energy(4 * n) - energy(3 * n)) / (n * h), height = n * h;
     const double local = .5 / (.5 * height / modulus(3, .1) + .5 * height / modulus(1, .35));
@@ -187,11 +187,11 @@ TEST(Fracture, layers_have_the_energy_of_their_local_limit)
 
 TEST(Fracture, every_event_accounts_for_the_energy)
 {
-  for (const BreakingSolid &solid :
+  for (const BreakingSolid<2> &solid :
        {plate(30, 20, 10 * h, .25), plate(30, 20, 10 * h, .35), layers(30, 20, 10 * h)})
     for (const auto breaking : {problem::BreakMode::events, problem::BreakMode::batches})
     {
-      BreakingNetwork body(network(solid), problem::Stretch::linear);
+      BreakingNetwork<2> body(network(solid), problem::Stretch::linear);
       const Growth growth = grow(body, rules(breaking));
       EXPECT_TRUE(growth.end == problem::GrowthEnd::parted ||
                   growth.events.back().reaction < 1e-9 * growth.events.front().reaction);
@@ -208,7 +208,7 @@ TEST(Fracture, every_event_accounts_for_the_energy)
 
 TEST(Fracture, mirror_images_break_together_if_ties_do)
 {
-  const BondNetwork net = network(plate(30, 20, 10 * h, .25));
+  const BondNetwork<2> net = network(plate(30, 20, 10 * h, .25));
   const auto asymmetry = [&](double ties)
   {
     std::map<std::array<long, 4>, std::size_t> place;
@@ -227,7 +227,7 @@ TEST(Fracture, mirror_images_break_together_if_ties_do)
       place[key(net.nodes[net.bonds[b].from], net.nodes[net.bonds[b].to], 1)] = b;
     auto events = rules();
     events.tie_tolerance = ties;
-    BreakingNetwork body(net, problem::Stretch::linear);
+    BreakingNetwork<2> body(net, problem::Stretch::linear);
     std::size_t n_alone = 0;
     for (const Event &event : grow(body, events).events)
       for (const std::size_t b : event.bonds)
@@ -243,7 +243,7 @@ TEST(Fracture, mirror_images_break_together_if_ties_do)
 
 TEST(Fracture, damage_beside_a_straight_crack_counts_its_bonds)
 {
-  const BondNetwork net = network(plate(30, 20, 20 * h, .25));
+  const BondNetwork<2> net = network(plate(30, 20, 20 * h, .25));
   const std::vector<double> damage = net.damage({});
   for (std::size_t i = 0; i < net.nodes.size(); ++i)
     if (const Point<2> &x = net.nodes[i]; x[0] > 5 * h && x[0] < 15 * h)
@@ -290,10 +290,10 @@ TEST(Fracture, grips_hold_the_nodes_whose_cells_share_area_with_them)
 {
   const auto rows = [](double thickness, double length)
   {
-    BreakingSolid solid = plate(10, 16, 2 * h, .25);
+    BreakingSolid<2> solid = plate(10, 16, 2 * h, .25);
     solid.grips[0].lower[1] = solid.grips[0].upper[1] - thickness * h;
     solid.grips[0].upper[0] = length * h;
-    const BondNetwork net = network(solid);
+    const BondNetwork<2> net = network(solid);
     return std::count(net.grip.begin(), net.grip.end(), 0);
   };
   EXPECT_EQ(rows(3, 10), 30);
@@ -307,13 +307,13 @@ TEST(Fracture, grips_hold_the_nodes_whose_cells_share_area_with_them)
 
 TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
 {
-  const BondNetwork net = network(plate(20, 16, 5 * h, .25));
+  const BondNetwork<2> net = network(plate(20, 16, 5 * h, .25));
   for (const auto stretch : {problem::Stretch::finite, problem::Stretch::linear})
   {
-    const BreakingNetwork body(net, stretch);
+    const BreakingNetwork<2> body(net, stretch);
     for (std::size_t b = 0; b < net.bonds.size(); ++b)
     {
-      const BondNetwork::Bond &bond = net.bonds[b];
+      const BondNetwork<2>::Bond &bond = net.bonds[b];
       const double load = body.response().critical_loads[b];
       if (!std::isfinite(load))
         continue;
@@ -329,16 +329,16 @@ TEST(Fracture, finite_stretches_reach_their_limits_at_critical_loads)
 
 TEST(Fracture, bonds_between_materials_have_means_of_both_ends)
 {
-  BreakingSolid solid = plate(10, 16, 2 * h, .25);
+  BreakingSolid<2> solid = plate(10, 16, 2 * h, .25);
   solid.material = [](const Point<2> &x) {
     return physics::Lame{x[0] < .25 ? 1. : 3., x[0] < .25 ? 1. : 3.};
   };
   solid.toughness = [](const Point<2> &x) { return x[0] < .25 ? 1. : 5.; };
-  const BondNetwork net = network(solid);
-  const BondNetwork soft = network(plate(10, 16, 2 * h, .25));
+  const BondNetwork<2> net = network(solid);
+  const BondNetwork<2> soft = network(plate(10, 16, 2 * h, .25));
   // at λ = μ = 1 and G = 1; s0² goes with G/(2μ)
   const double first = M_PI / (6 * 3 * h);
-  for (const BondNetwork::Bond &bond : net.bonds)
+  for (const BondNetwork<2>::Bond &bond : net.bonds)
   {
     const int n_right =
         (net.nodes[bond.from][0] > .25 ? 1 : 0) + (net.nodes[bond.to][0] > .25 ? 1 : 0);
@@ -355,14 +355,14 @@ TEST(Fracture, bonds_between_materials_have_means_of_both_ends)
 
 TEST(Fracture, bonds_across_an_interface_have_its_toughness)
 {
-  BreakingSolid solid = plate(10, 16, 2 * h, .25);
-  const BondNetwork plain = network(solid);
+  BreakingSolid<2> solid = plate(10, 16, 2 * h, .25);
+  const BondNetwork<2> plain = network(solid);
   double y = plain.nodes[0][1]; // between two rows, above those of the notch
   for (const Point<2> &x : plain.nodes)
     y = std::max(y, x[1]);
   y -= 4.5 * h;
   solid.interfaces = {{{{-1, y}, {6.3 * h, y}}, .04}, {{{3 * h, y + 1}, {3 * h, y}}, .01}};
-  const BondNetwork net = network(solid);
+  const BondNetwork<2> net = network(solid);
   ASSERT_EQ(net.bonds.size(), plain.bonds.size());
   std::size_t n_first = 0, n_second = 0;
   for (std::size_t b = 0; b < net.bonds.size(); ++b)
@@ -392,12 +392,12 @@ TEST(Fracture, bonds_across_an_interface_have_its_toughness)
 
 TEST(Fracture, the_least_toughness_along_a_bond_is_seen_between_nodes)
 {
-  BreakingSolid solid = plate(10, 16, 2 * h, .25);
+  BreakingSolid<2> solid = plate(10, 16, 2 * h, .25);
   const double y = network(solid).nodes[0][1] + 6.5 * h; // between two rows
   solid.toughness = [y](const Point<2> &x) { return std::abs(x[1] - y) < .2 * h ? .25 : 1; };
-  const BondNetwork mean = network(solid);
+  const BondNetwork<2> mean = network(solid);
   solid.takes_least_toughness = true;
-  const BondNetwork least = network(solid);
+  const BondNetwork<2> least = network(solid);
   std::size_t n_weak = 0;
   for (std::size_t b = 0; b < least.bonds.size(); ++b)
   {
@@ -416,14 +416,14 @@ TEST(Fracture, the_least_toughness_along_a_bond_is_seen_between_nodes)
 
 TEST(Fracture, goes_on_from_any_event_to_the_same_bits)
 {
-  const BondNetwork net = network(plate(40, 20, 20 * h, .25));
-  BreakingNetwork whole(net, problem::Stretch::finite);
+  const BondNetwork<2> net = network(plate(40, 20, 20 * h, .25));
+  BreakingNetwork<2> whole(net, problem::Stretch::finite);
   const Growth expected = grow(whole, rules());
   ASSERT_GT(whole.work().n_factorisations, 3u);
   for (const std::size_t n :
        {std::size_t{1}, expected.events.size() / 2, expected.events.size() - 2})
   {
-    BreakingNetwork body(net, problem::Stretch::finite);
+    BreakingNetwork<2> body(net, problem::Stretch::finite);
     const auto begin = expected.events.begin();
     const Growth growth = grow(body, rules(), {begin, begin + static_cast<std::ptrdiff_t>(n)});
     EXPECT_EQ(growth.n_resumed, n);
@@ -440,7 +440,7 @@ TEST(Fracture, goes_on_from_any_event_to_the_same_bits)
 
 TEST(Fracture, what_hangs_loose_carries_no_force)
 {
-  const BondNetwork net = network(plate(20, 16, 5 * h, .25));
+  const BondNetwork<2> net = network(plate(20, 16, 5 * h, .25));
   // a free node, and one beside it
   std::size_t node = 0;
   while (net.grip[node] >= 0 || net.nodes[node][0] < 10 * h || net.nodes[node][1] < 0)
@@ -451,7 +451,7 @@ TEST(Fracture, what_hangs_loose_carries_no_force)
       (std::abs(net.bonds[b].xi[1]) > 1e-12 ? own : row).push_back(b);
   for (const bool is_at_once : {true, false})
   {
-    BreakingNetwork body(net, problem::Stretch::linear);
+    BreakingNetwork<2> body(net, problem::Stretch::linear);
     (void)body.break_bonds(own); // its bonds lie on a line
     EXPECT_LT(body.response().residual, 1e-12);
     if (is_at_once)
@@ -468,7 +468,7 @@ TEST(Fracture, what_hangs_loose_carries_no_force)
 
 TEST(Fracture, a_piece_that_no_grip_holds_carries_no_force)
 {
-  const BondNetwork net = network(plate(20, 16, 5 * h, .25));
+  const BondNetwork<2> net = network(plate(20, 16, 5 * h, .25));
   const auto is_in = [&](unsigned int node) {
     return net.nodes[node].distance({10 * h, 0}) < 2.2 * h;
   };
@@ -476,7 +476,7 @@ TEST(Fracture, a_piece_that_no_grip_holds_carries_no_force)
   for (std::size_t b = 0; b < net.bonds.size(); ++b)
     if (is_in(net.bonds[b].from) != is_in(net.bonds[b].to))
       around.push_back(b);
-  BreakingNetwork body(net, problem::Stretch::linear);
+  BreakingNetwork<2> body(net, problem::Stretch::linear);
   (void)body.break_bonds(around);
   EXPECT_LT(body.response().residual, 1e-12);
   for (std::size_t b = 0; b < net.bonds.size(); ++b)
@@ -492,7 +492,7 @@ TEST(Fracture, ends_where_it_is_told_to)
   {
     problem::FractureSettings section = rules();
     change(section);
-    BreakingNetwork body(network(plate(20, 16, 10 * h, .25)), problem::Stretch::linear);
+    BreakingNetwork<2> body(network(plate(20, 16, 10 * h, .25)), problem::Stretch::linear);
     Growth growth = grow(body, section);
     EXPECT_EQ(growth.is_separated, body.is_separated());
     return growth;
@@ -519,7 +519,7 @@ TEST(Fracture, load_steps_break_more_bonds_than_events)
   {
     problem::FractureSettings section = rules(breaking);
     section.load_step = step;
-    BreakingNetwork body(network(plate(40, 20, 20 * h, .25)), problem::Stretch::linear);
+    BreakingNetwork<2> body(network(plate(40, 20, 20 * h, .25)), problem::Stretch::linear);
     return all_broken(grow(body, section)).size();
   };
   const std::size_t events = n_broken(problem::BreakMode::events, 0);
@@ -529,11 +529,11 @@ TEST(Fracture, load_steps_break_more_bonds_than_events)
 
 TEST(Fracture, refuses_bodies_that_cannot_be_pulled_apart)
 {
-  const auto refused = [](const std::function<void(BreakingSolid &)> &change)
+  const auto refused = [](const std::function<void(BreakingSolid<2> &)> &change)
   {
-    BreakingSolid solid = plate(20, 16, 10 * h, .25);
+    BreakingSolid<2> solid = plate(20, 16, 10 * h, .25);
     change(solid);
-    EXPECT_THROW(BreakingNetwork(network(solid), problem::Stretch::linear), InputError);
+    EXPECT_THROW(BreakingNetwork<2>(network(solid), problem::Stretch::linear), InputError);
   };
   refused([](auto &solid) { solid.toughness = [](const Point<2> &x) { return x[0] - .5; }; });
   refused([](auto &solid) { solid.notch = {{{-1, .3 * h}, {-.5, .3 * h}}}; });

@@ -15,10 +15,10 @@ namespace growth_plate
 
   /// A plate of n1 × n2 nodes about y = 0 with a notch from the left, its upper and lower rows held
   /// and pulled apart by 1 at load 1.
-  inline meshfree::BreakingSolid plate(int n1, int n2, double notch, double nu, int m = 3)
+  inline meshfree::BreakingSolid<2> plate(int n1, int n2, double notch, double nu, int m = 3)
   {
     const double length = n1 * h, half = .5 * n2 * h, grip = m * h;
-    meshfree::BreakingSolid solid;
+    meshfree::BreakingSolid<2> solid;
     solid.domain.include = {{{0, -half}, {length, half}}};
     solid.grips = {{{0, half - grip}, {length, half}}, {{0, -half}, {length, grip - half}}};
     if (notch > 0)
@@ -40,7 +40,7 @@ namespace growth_plate
     return physics::influence_function<2>(physics::kernel_type("1/r").profile, horizon);
   }
 
-  inline meshfree::BondNetwork network(const meshfree::BreakingSolid &solid, int m = 3)
+  inline meshfree::BondNetwork<2> network(const meshfree::BreakingSolid<2> &solid, int m = 3)
   {
     const auto K = influence(m * h);
     return make_bond_network(solid, meshfree::full_area(physics::deviatoric_kernel(K, 1)), K, h,

@@ -31,10 +31,10 @@ namespace
   }
 
   /// The square [-1, 1]², held at u of a tip at 0 all around, cut from the left to a tip elsewhere.
-  meshfree::BreakingNetwork cut_square(double h, double tip)
+  meshfree::BreakingNetwork<2> cut_square(double h, double tip)
   {
     const double out = 4 * h, all = 1 + out;
-    meshfree::BreakingSolid solid;
+    meshfree::BreakingSolid<2> solid;
     solid.domain.include = {{{-all, -all}, {all, all}}};
     solid.grips = {{{-all, 1}, {all, all}},
                    {{-all, -all}, {all, -1}},
@@ -82,7 +82,7 @@ TEST(KField, is_what_bonds_around_a_crack_take_up)
   for (const auto &[n, known] : {std::pair{16, 1.42e-2}, {32, 6.8e-3}, {64, 3.3e-3}})
   {
     const double h = 2. / n;
-    const meshfree::BreakingNetwork body = cut_square(h, 0);
+    const meshfree::BreakingNetwork<2> body = cut_square(h, 0);
     double square = 0;
     for (std::size_t i = 0; i < body.displacements().size(); ++i)
       if (body.network().grip[i] < 0)

@@ -15,12 +15,12 @@ namespace
   using meshfree::BreakingNetwork;
   using problem::GrowthSolver;
 
-  meshfree::BondNetwork plate_of(double nu)
+  meshfree::BondNetwork<2> plate_of(double nu)
   {
     return network(plate(40, 20, 20 * h, nu));
   }
 
-  Growth grow(BreakingNetwork &body, std::vector<Event> earlier = {})
+  Growth grow(BreakingNetwork<2> &body, std::vector<Event> earlier = {})
   {
     return analysis::grow(body, rules(), std::move(earlier));
   }
@@ -30,8 +30,8 @@ TEST(MultigridGrowth, breaks_the_same_bonds_at_the_same_loads)
 {
   for (const double nu : {.25, .35})
   {
-    const meshfree::BondNetwork net = plate_of(nu);
-    BreakingNetwork factored(net, problem::Stretch::linear),
+    const meshfree::BondNetwork<2> net = plate_of(nu);
+    BreakingNetwork<2> factored(net, problem::Stretch::linear),
         iterated(net, problem::Stretch::linear, GrowthSolver::multigrid);
     const Growth expected = grow(factored), growth = grow(iterated);
     EXPECT_EQ(growth.end, expected.end);
@@ -56,12 +56,12 @@ TEST(MultigridGrowth, breaks_the_same_bonds_at_the_same_loads)
 
 TEST(MultigridGrowth, goes_on_to_the_same_bits)
 {
-  const meshfree::BondNetwork net = plate_of(.25);
-  BreakingNetwork whole(net, problem::Stretch::linear, GrowthSolver::multigrid);
+  const meshfree::BondNetwork<2> net = plate_of(.25);
+  BreakingNetwork<2> whole(net, problem::Stretch::linear, GrowthSolver::multigrid);
   const Growth expected = grow(whole);
   ASSERT_GT(whole.work().n_factorisations, 3u);
   const auto half = static_cast<std::ptrdiff_t>(expected.events.size() / 2);
-  BreakingNetwork body(net, problem::Stretch::linear, GrowthSolver::multigrid);
+  BreakingNetwork<2> body(net, problem::Stretch::linear, GrowthSolver::multigrid);
   const Growth growth = grow(body, {expected.events.begin(), expected.events.begin() + half});
   ASSERT_EQ(growth.events.size(), expected.events.size());
   for (std::size_t i = 0; i < growth.events.size(); ++i)

@@ -36,14 +36,15 @@ namespace
     {
     }
 
-    BreakingNetwork with_crack(int n_crack, double toughness = 1) const
+    BreakingNetwork<2> with_crack(int n_crack, double toughness = 1) const
     {
       return {network(n_crack, toughness), problem::Stretch::linear};
     }
 
-    BondNetwork network(int n_crack, double toughness) const
+    BondNetwork<2> network(int n_crack, double toughness) const
     {
-      BreakingSolid solid = meshfree::make_strip({height, length, n_crack, h}, lame, K.horizon());
+      BreakingSolid<2> solid =
+          meshfree::make_strip({height, length, n_crack, h}, lame, K.horizon());
       solid.surface_terms = surface_terms;
       solid.toughness = [toughness](const Point<2> &) { return toughness; };
       return make_bond_network(solid, rule, K, h, geometry::Backend::fast);
@@ -60,7 +61,7 @@ namespace
     study::StripGrowth growth(int from, double toughness = 1) const
     {
       const auto body =
-          std::make_shared<BreakingNetwork>(network(from, toughness), problem::Stretch::linear);
+          std::make_shared<BreakingNetwork<2>>(network(from, toughness), problem::Stretch::linear);
       return study::measure_strip(meshfree::breakable_body(body, {from * h, 0}), W1(),
                                   (from + 2) * h, (from + 6) * h);
     }

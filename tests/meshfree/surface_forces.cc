@@ -38,11 +38,11 @@ namespace
 
   /// A plate held at left and right and cut along its middle there, or one held above and below and
   /// cut from the left.
-  BondNetwork plate(const physics::Lame &lame, bool is_held_at_ends,
-                    SurfaceTerms terms = SurfaceTerms::published, double tip = length / 2)
+  BondNetwork<2> plate(const physics::Lame &lame, bool is_held_at_ends,
+                       SurfaceTerms terms = SurfaceTerms::published, double tip = length / 2)
   {
     constexpr double grip = 2 * m * h;
-    BreakingSolid solid;
+    BreakingSolid<2> solid;
     solid.domain.include = {{{0, -half}, {length, half}}};
     if (is_held_at_ends)
       solid.grips = {{{0, -half}, {grip, half}}, {{length - grip, -half}, {length, half}}};
@@ -64,7 +64,7 @@ namespace
   }
 
   /// The forces of the operator on nodes, which has ghosts where no node is.
-  Field by_operator(const BondNetwork &net, const physics::Lame &lame, const Field &u,
+  Field by_operator(const BondNetwork<2> &net, const physics::Lame &lame, const Field &u,
                     SurfaceTerms terms)
   {
     const auto K = physics::influence_function<2>(physics::kernel_type("1/r").profile, net.horizon);
@@ -120,7 +120,7 @@ namespace
     return force;
   }
 
-  Field noise(const BondNetwork &net)
+  Field noise(const BondNetwork<2> &net)
   {
     Field u(net.nodes.size());
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -138,7 +138,7 @@ namespace
     return least;
   }
 
-  double largest(const BondNetwork &net, const Field &force)
+  double largest(const BondNetwork<2> &net, const Field &force)
   {
     double result = 0;
     for (std::size_t i = 0; i < force.size(); ++i)
@@ -147,7 +147,7 @@ namespace
     return result;
   }
 
-  Growth grow(BreakingNetwork &body, std::vector<analysis::Event> earlier = {})
+  Growth grow(BreakingNetwork<2> &body, std::vector<analysis::Event> earlier = {})
   {
     problem::FractureSettings rules;
     rules.surface_terms = SurfaceTerms::published;
@@ -159,7 +159,7 @@ TEST(SurfaceForces, vanish_in_uniaxial_stress_along_sides_and_cracks)
 {
   for (const physics::Lame &lame : {physics::Lame{1, 1}, {2.5, 1}, {.4, 1}})
   {
-    const BondNetwork net = plate(lame, true);
+    const BondNetwork<2> net = plate(lame, true);
     Field u;
     for (const Point<2> &x : net.nodes)
     {
@@ -170,8 +170,8 @@ TEST(SurfaceForces, vanish_in_uniaxial_stress_along_sides_and_cracks)
     const double of_strain = 2 * lame.mu * h; // a stress over the side of a cell
     const auto found = [&](SurfaceTerms terms)
     {
-      const BondNetwork other = plate(lame, true, terms);
-      return largest(other, SurfaceForces(other, Connections(other)).forces(u));
+      const BondNetwork<2> other = plate(lame, true, terms);
+      return largest(other, SurfaceForces(other, Connections<2>(other)).forces(u));
     };
     EXPECT_LT(found(SurfaceTerms::published), 1e-12 * of_strain);
     EXPECT_LT(found(SurfaceTerms::consistent), 1e-12 * of_strain);
@@ -185,8 +185,8 @@ TEST(SurfaceForces, are_those_of_the_operator_on_nodes)
     for (const SurfaceTerms terms :
          {SurfaceTerms::published, SurfaceTerms::none, SurfaceTerms::consistent})
     {
-      const BondNetwork net = plate(lame, false, terms);
-      const Connections connections(net);
+      const BondNetwork<2> net = plate(lame, false, terms);
+      const Connections<2> connections(net);
       const Field u = noise(net);
       const Field expected = by_operator(net, lame, u, terms);
       Field difference = SurfaceForces(net, connections).forces(u);
@@ -207,10 +207,10 @@ TEST(SurfaceForces, are_the_same_whether_a_crack_was_there_or_has_grown)
 {
   for (const SurfaceTerms terms : {SurfaceTerms::published, SurfaceTerms::consistent})
   {
-    const BondNetwork cut = plate({2.5, 1}, false, terms),
-                      net = plate({2.5, 1}, false, terms, length / 4);
+    const BondNetwork<2> cut = plate({2.5, 1}, false, terms),
+                         net = plate({2.5, 1}, false, terms, length / 4);
     std::set<std::pair<unsigned int, unsigned int>> there;
-    for (const BondNetwork::Bond &bond : cut.bonds)
+    for (const BondNetwork<2>::Bond &bond : cut.bonds)
       there.emplace(bond.from, bond.to);
     std::vector<std::size_t> broken;
     for (std::size_t b = 0; b < net.bonds.size(); ++b)
@@ -218,10 +218,10 @@ TEST(SurfaceForces, are_the_same_whether_a_crack_was_there_or_has_grown)
         broken.push_back(b);
     ASSERT_EQ(net.bonds.size(), cut.bonds.size() + broken.size());
     ASSERT_GT(broken.size(), 100u);
-    Connections connections(net);
+    Connections<2> connections(net);
     connections.break_bonds(broken);
     const Field u = noise(net);
-    const Field expected = SurfaceForces(cut, Connections(cut)).forces(u);
+    const Field expected = SurfaceForces(cut, Connections<2>(cut)).forces(u);
     Field difference = SurfaceForces(net, connections).forces(u);
     for (std::size_t i = 0; i < u.size(); ++i)
       difference[i] -= expected[i];
@@ -234,9 +234,9 @@ TEST(SurfaceForces, on_grips_are_in_the_reaction)
 {
   for (const SurfaceTerms terms : {SurfaceTerms::published, SurfaceTerms::consistent})
   {
-    const BondNetwork net = plate({2.5, 1}, false, terms);
-    const BreakingNetwork body(net, problem::Stretch::linear);
-    const Connections connections(net);
+    const BondNetwork<2> net = plate({2.5, 1}, false, terms);
+    const BreakingNetwork<2> body(net, problem::Stretch::linear);
+    const Connections<2> connections(net);
     const Field &u = body.displacements(), forces = SurfaceForces(net, connections).forces(u);
     double sum = 0;
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -247,8 +247,8 @@ TEST(SurfaceForces, on_grips_are_in_the_reaction)
 
 TEST(SurfaceForces, see_the_dilatation_of_linear_fields_at_sides_corners_and_tips)
 {
-  const BondNetwork net = plate({2, 1}, false);
-  const Connections connections(net);
+  const BondNetwork<2> net = plate({2, 1}, false);
+  const Connections<2> connections(net);
   Field u;
   for (const Point<2> &x : net.nodes)
   {
@@ -266,8 +266,8 @@ TEST(SurfaceForces, are_in_equilibrium_while_a_crack_grows_and_go_on_to_the_same
        {std::pair(1., SurfaceTerms::published), std::pair(1.5, SurfaceTerms::published),
         std::pair(1.5, SurfaceTerms::consistent)})
   {
-    const BondNetwork net = plate({lambda, 1}, false, terms);
-    BreakingNetwork body(net, problem::Stretch::linear);
+    const BondNetwork<2> net = plate({lambda, 1}, false, terms);
+    BreakingNetwork<2> body(net, problem::Stretch::linear);
     EXPECT_FALSE(body.has_energy());
     const Growth growth = grow(body);
     ASSERT_GT(growth.events.size(), 50u);
@@ -284,7 +284,7 @@ TEST(SurfaceForces, are_in_equilibrium_while_a_crack_grows_and_go_on_to_the_same
     EXPECT_LT(body.work().most_iterations, 60u);
 
     const auto half = static_cast<std::ptrdiff_t>(growth.events.size() / 2);
-    BreakingNetwork again(net, problem::Stretch::linear);
+    BreakingNetwork<2> again(net, problem::Stretch::linear);
     const Growth later = grow(again, {growth.events.begin(), growth.events.begin() + half});
     ASSERT_EQ(later.events.size(), growth.events.size());
     for (std::size_t i = 0; i < later.events.size(); ++i)
