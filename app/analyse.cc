@@ -98,7 +98,16 @@ namespace plumbline::app
 
   AnalysisRow growth_row(const study::Checkpoints &checkpoints)
   {
-    return {study::growth_analysis(checkpoints), report::growth_view};
+    const auto write =
+        [folder = checkpoints.folder / "frames"](const std::vector<double> &loads,
+                                                 const std::vector<dealii::Point<3>> &nodes,
+                                                 const std::vector<double> &damage)
+    {
+      report::write_frame(
+          folder, "damage", loads, nodes,
+          {{"damage", false, [&](std::size_t node, unsigned int) { return damage[node]; }}});
+    };
+    return {study::growth_analysis(checkpoints, write), report::growth_view};
   }
 
   namespace

@@ -29,7 +29,8 @@ namespace plumbline::report
 
     std::vector<std::pair<std::string, std::string>> meanings(const Record &record)
     {
-      const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid);
+      const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid),
+                 is_in_space = study::is_in_space(record);
       return {
           {"broken bonds", "without those that the notch cuts"},
           {"events", "each breaks one bond and its ties, or a batch of bonds"},
@@ -39,11 +40,20 @@ namespace plumbline::report
                                 std::to_string(record.count("first advance event")) + ")"},
           {"peak load", "load factor of the peak reaction"},
           {"peak reaction", "of the grips, work-conjugate to the load factor [force]"},
-          {"advance", "growth of the crack, from the notch tip [length]"},
-          {"G by bonds", "energy of the broken bonds, each by its share of a straight crack's "
-                         "length, over the width [force/length]"},
-          {"G by energy", "energy dissipated in broken bonds and released, over the width; larger "
-                          "than that of the material if growth is unstable [force/length]"},
+          {"advance", is_in_space
+                          ? "growth of the crack front, mean over the layers of nodes along z "
+                            "[length]"
+                          : "growth of the crack, from the notch tip [length]"},
+          {"advance min", "the minimum over the layers [length]"},
+          {"advance max", "the maximum over the layers [length]"},
+          {"G by bonds",
+           "energy of the broken bonds, each by its share of a straight crack's " +
+               std::string(is_in_space ? "area, over the area" : "length, over the width") +
+               " [force/length]"},
+          {"G by energy",
+           "energy dissipated in broken bonds and released, over the " +
+               std::string(is_in_space ? "area" : "width") +
+               "; larger than that of the material if growth is unstable [force/length]"},
           {"K by bonds",
            "√(G E/(1 - ν²)) with G by bonds and the mean of E/(1 - ν²) [force/length^1.5]"},
           {"K by energy", "the same with G by energy [force/length^1.5]"},
@@ -52,15 +62,18 @@ namespace plumbline::report
           {"L2", "the same in phase 2, the tougher one [length]"},
           {"Li", "the same on the interface: bonds with one end in each phase [length]"},
           {"width", "of all separated cell faces, projected onto the x-axis [length]"},
+          {"area", "of all separated cell faces, projected onto the plane of x and z [length^2]"},
           {"apart", "separated cell faces that are not connected to the notch"},
           {"connected", "whether bonds still connect the grips at the end"},
           {"reaction left", "reaction at the end relative to its peak"},
           {"s0", "critical stretch of bonds, the minimum over all materials"},
-          {"G_h / G", "energy of all bonds across a straight line of the lattice at the critical "
-                      "stretch, relative to G"},
+          {"G_h / G", "energy of all bonds across a straight " +
+                          std::string(is_in_space ? "plane" : "line") +
+                          " of the lattice at the critical stretch, relative to G"},
           {"G_peak / G",
            "energy at which a crack grows in a strip of this lattice; G was divided by it"},
           {"unpaired", "broken bonds whose mirror image about the midline is intact"},
+          {"unpaired in z", "the same about the middle of the thickness"},
           {"imbalance", study::is_corrected(record)
                             ? "maximum imbalance of the bonds' energy relative to the work; the "
                               "surface terms do not derive from an energy"
@@ -85,11 +98,14 @@ namespace plumbline::report
       const Curve &parts = record.curves.at("parts");
       const std::size_t n = parts[0].values.size();
       for (std::size_t i = 0; i < n && n <= most_parts && !record.has("L1"); ++i)
-        table.rows.push_back({text_cell("length, G = " + rounded(column(parts, "G")[i])),
-                              number_cell(column(parts, "length")[i]),
-                              text_cell(rounded(column(parts, "bonds")[i]) +
-                                        " broken bonds of this toughness; length of a straight "
-                                        "crack with as many [length]")});
+        table.rows.push_back(
+            {text_cell((study::is_in_space(record) ? "area, G = " : "length, G = ") +
+                       rounded(column(parts, "G")[i])),
+             number_cell(column(parts, "length")[i]),
+             text_cell(rounded(column(parts, "bonds")[i]) + " broken bonds of this toughness; " +
+                       (study::is_in_space(record)
+                            ? "area of a plane crack with as many [length^2]"
+                            : "length of a straight crack with as many [length]"))});
       return table;
     }
 
@@ -171,11 +187,14 @@ namespace plumbline::report
     std::string model(const Record &record)
     {
       const std::string &seeds = record.text("seeds"), &field = record.text("field");
+      const bool is_in_space = study::is_in_space(record);
       return "Model: " + record.text("model") +
-             ". A bond breaks at the critical stretch s0, s0² = πG/(3δ(λ + μ)), at which all bonds "
-             "across a straight cut of the continuum store the energy G (Fan et al. 2022, eq. "
-             "(2.25); exact where λ = μ). On this lattice they store " +
-             rounded(record["G_h / G"]) +
+             ". A bond breaks at the critical stretch s0, s0² = " +
+             (is_in_space ? "5G/(9kδ) with the bulk modulus k" : "πG/(3δ(λ + μ))") +
+             ", at which all bonds across a " + (is_in_space ? "plane" : "straight") +
+             " cut of the continuum store the energy G (" +
+             (is_in_space ? "Silling & Askari 2005" : "Fan et al. 2022, eq. (2.25)") +
+             "; exact where λ = μ). On this lattice they store " + rounded(record["G_h / G"]) +
              " G, and a crack needs more than that to pass from one column of nodes to the next" +
              (record.has("G_peak / G")
                   ? ": " + rounded(record["G_peak / G"]) +
@@ -250,15 +269,23 @@ namespace plumbline::report
       return chart;
     }
 
-    DataChart tip_chart(const Curve &events)
+    DataChart tip_chart(const Curve &events, bool is_in_space)
     {
       DataChart chart = linear_chart(
           "tip", "Load at which the crack grows", "crack advance [length]",
           "load factor at which an event begins [1]",
-          "The crack consists of the cell faces whose two nodes have separated; its tip is the end "
-          "of these faces that is farthest from the notch tip. The lattice traps the tip at each "
-          "column of nodes and releases it at a lower load.");
-      chart.data = data_of(events, {"event", "critical load", "load", "tip x", "tip y", "way"});
+          std::string(is_in_space
+                          ? "Advance of the crack front: the mean over the layers of nodes. "
+                          : "") +
+              "The crack consists of the cell faces whose two nodes have separated; its tip is the "
+              "end of these faces that is farthest from the notch tip. The lattice traps the tip "
+              "at "
+              "each column of nodes and releases it at a lower load.");
+      chart.data =
+          data_of(events, is_in_space ? std::vector<std::string>{"event", "critical load", "load",
+                                                                 "way", "way min", "way max"}
+                                      : std::vector<std::string>{"event", "critical load", "load",
+                                                                 "tip x", "tip y", "way"});
       std::vector<Vertex> points;
       double way = 0;
       for (std::size_t i = 0; i < events[0].values.size(); ++i)
@@ -270,13 +297,40 @@ namespace plumbline::report
       return chart;
     }
 
+    /// A line for each moment after the first.
+    DataChart front_chart(const Curve &front)
+    {
+      DataChart chart = linear_chart(
+          "front", "The crack front", "z [length]", "way from the notch [length]",
+          "Way of the crack in each layer of nodes along z, after even parts of all broken bonds. "
+          "In a layer it is found as in the plane, from the bonds that lie in it.");
+      chart.data = table_of(front);
+      std::vector<std::vector<Vertex>> lines;
+      std::vector<double> n_events;
+      for (std::size_t i = 0; i < front[0].values.size(); ++i)
+      {
+        const auto moment = static_cast<std::size_t>(column(front, "moment")[i]);
+        lines.resize(std::max(lines.size(), moment + 1));
+        n_events.resize(lines.size());
+        n_events[moment] = column(front, "events")[i];
+        lines[moment].push_back({column(front, "z")[i], column(front, "way")[i]});
+      }
+      for (std::size_t k = 1; k < lines.size(); ++k)
+        chart.plot.lines.push_back(long_line(rounded(n_events[k]) + " events",
+                                             static_cast<unsigned int>(k - 1),
+                                             std::move(lines[k])));
+      return chart;
+    }
+
     std::vector<DataChart> charts(const Record &record)
     {
       const Curve &events = record.curves.at("events");
       if (events[0].values.empty())
         return {};
       std::vector<DataChart> all = {load_chart(events), energy_chart(record, events),
-                                    tip_chart(events)};
+                                    tip_chart(events, study::is_in_space(record))};
+      if (study::is_in_space(record))
+        all.push_back(front_chart(record.curves.at("front")));
       for (DataChart &chart : all)
         fit_y(chart.plot);
       if (record["variance kept"] > 0)
@@ -295,14 +349,17 @@ namespace plumbline::report
       for (std::size_t i = 0; i < moments[0].values.size(); ++i)
         titles.push_back("load " + rounded(column(moments, "load")[i]) + ", " +
                          rounded(column(moments, "events")[i]) + " events");
-      const char *const title = "Damage: broken bonds";
+      const bool is_in_space = study::is_in_space(record);
+      const char *const title =
+          is_in_space ? "Damage: broken bonds, at mid-thickness" : "Damage: broken bonds";
       std::vector<Picture> all = {
           {"moments", title,
            damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
            "The fraction of each node's bonds that is broken or cut, on the undeformed body, at "
-           "equal steps of the number of broken bonds. Beside a straight crack at m = 3 it is "
-           "11/28, 6/28 and "
-           "1/28."}};
+           "equal steps of the number of broken bonds. " +
+               std::string(is_in_space
+                               ? "For all nodes, as VTU: frames/damage.pvd."
+                               : "Beside a straight crack at m = 3 it is 11/28, 6/28 and 1/28.")}};
       if (has_microstructure(record))
         all.insert(
             all.begin(),
@@ -324,7 +381,8 @@ namespace plumbline::report
     const Record &record = *grown.front();
     view.answer = verdict(record);
     view.model = model(record);
-    view.omitted = study::left_out_of_growth(study::is_corrected(record));
+    view.omitted =
+        study::left_out_of_growth(study::is_corrected(record), study::is_in_space(record));
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()), record.key.problem,
                   record.text("end")};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});

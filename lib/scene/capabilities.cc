@@ -87,7 +87,8 @@ namespace plumbline::scene
         return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
       case C::space:
         return {"Domain/dimension = 3, which is available for static, transient and dispersion "
-                "analyses of linear materials and for the check of weights",
+                "analyses of linear materials, for quasi-static fracture and for the check of "
+                "weights",
                 "write 2"};
       }
       return {};
@@ -118,7 +119,7 @@ namespace plumbline::scene
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),
          of_damage() | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
-                                    C::nonlocal}},
+                                    C::nonlocal, C::space}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_but({C::line, C::space})},
         {base::word(Analysis::dispersion),

@@ -17,15 +17,17 @@ namespace plumbline::scene
       if (!is_good)
         throw InputError(given + " needs " + what);
     };
-    const physics::Expression toughness("Fracture/toughness", fracture.toughness,
-                                        scene.random.names());
+    physics::Names names = scene.random.names();
+    names.is_in_space = domain.is_in_space();
+    const physics::Expression toughness("Fracture/toughness", fracture.toughness, names);
     needs(toughness.n_components() == 1, "one component");
-    if (toughness.is_constant() && !(toughness({}) > 0))
+    if (toughness.is_constant() &&
+        !((domain.is_in_space() ? toughness.at({}, 0) : toughness({})) > 0))
       throw InputError(given + " must be positive: it is the fracture energy per unit area");
     needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
           "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' is quasi-static");
     needs(scene.material.model == &lps(),
-          "Material/model = LPS (with nu = 1/4 in plane strain it is bond-based)");
+          "Material/model = LPS (with nu = 1/4 in plane strain or space it is bond-based)");
     needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: the critical stretch is known for that influence function");
     needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");

@@ -23,9 +23,13 @@ namespace plumbline::scene
               "Domain/dimension = 3 needs three coordinates per corner in Domain/boxes and "
               "Domain/holes; write '0, 0, 0 : 1, 1, 1'");
       needs(domain.mesh.is_lattice(), "Domain/mesh = " + domain.mesh.name, "write lattice");
-      needs(!domain.is_free_body && !domain.is_periodic, "Domain/boundary other than constrained",
-            "write constrained");
-      needs(!domain.is_damaged(), "Domain/cracks and Domain/outside", "clear both");
+      const bool is_fracture = scene.fracture.is_there(); // see check_fracture
+      needs(!domain.is_periodic && (!domain.is_free_body || is_fracture),
+            "Domain/boundary other than constrained",
+            "write constrained (free is for quasi-static fracture, section Fracture)");
+      needs(domain.outside.empty() && (domain.cracks.empty() || is_fracture),
+            "Domain/cracks and Domain/outside",
+            "clear both (cracks are for quasi-static fracture, section Fracture)");
       needs(!domain.collar, "Domain/interaction domain with a width", "write auto");
     }
 
@@ -53,6 +57,15 @@ namespace plumbline::scene
             "write Time/final time = 0" + remedy);
     }
 
+    void check_fracture_in_space(const Scene &scene)
+    {
+      const FractureSection &fracture = scene.fracture;
+      needs(!fracture.is_there() || !fracture.is_corrected(),
+            "Fracture/surface terms = " + base::word(fracture.surface_terms), "write uncorrected");
+      needs(!fracture.is_there() || fracture.criterion == Criterion::toughness,
+            "Fracture/criterion = " + base::word(fracture.criterion), "write toughness");
+    }
+
     void check_study_in_space(const Scene &scene)
     {
       const MaterialSection &material = scene.material;
@@ -70,8 +83,9 @@ namespace plumbline::scene
       require(material.given[2][0].empty() && material.given[2][1].empty(),
               "Material/k and Material/l are constants of the plane; write Material/E and "
               "Material/nu, or Domain/dimension = 2");
-      needs(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
-            "cracks and strips", "clear Crack, Fracture and Strip");
+      needs(!scene.crack.is_there() && !scene.strip.is_there(), "dynamic cracks and strips",
+            "clear Crack and Strip");
+      check_fracture_in_space(scene);
       check_nodes_in_space(scene);
       needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
             "Kernel/coefficient and Kernel/materials", "clear both");

@@ -67,13 +67,13 @@ namespace plumbline::study
     }
   } // namespace
 
-  Growth run_growth(const GrowthModel &model, const GrowthPlan &plan)
+  Growth run_growth(method::QuasistaticFractureModel &body, const GrowthPlan &plan)
   {
     std::vector<Event> earlier;
     const std::string file = plan.checkpoints.file().string();
     const auto saved = analysis::read_checkpoint(file);
     if (saved && saved->subject == plan.subject)
-      earlier = from_records(saved->records, plan, model.body->n_bonds());
+      earlier = from_records(saved->records, plan, body.n_bonds());
     const auto save = [&](const Growth &growth)
     {
       const bool is_to_stop =
@@ -85,10 +85,11 @@ namespace plumbline::study
         throw Interrupted();
       return true;
     };
-    return analysis::grow(*model.body, plan.rules, std::move(earlier), save);
+    return analysis::grow(body, plan.rules, std::move(earlier), save);
   }
 
-  std::vector<GrowthMoment> growth_moments(const GrowthModel &model,
+  template <int dim>
+  std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &model,
                                            const std::vector<Event> &events)
   {
     std::size_t n_broken = 0;
@@ -105,7 +106,8 @@ namespace plumbline::study
     return moments;
   }
 
-  double bonds_across(const GrowthModel &model)
+  template <int dim>
+  double bonds_across(const method::BreakableBody<dim> &model)
   {
     // of whole bonds by how far they reach up, for each node that has all of them: of the node
     // whose bonds are most
@@ -119,10 +121,11 @@ namespace plumbline::study
     return reach.empty() ? 0 : std::round(*std::max_element(reach.begin(), reach.end()));
   }
 
-  std::vector<BrokenPart> broken_parts(const GrowthModel &model,
+  template <int dim>
+  std::vector<BrokenPart> broken_parts(const method::BreakableBody<dim> &model,
                                        const std::vector<std::size_t> &broken)
   {
-    const double of_bond = model.h / bonds_across(model);
+    const double of_bond = (dim == 2 ? model.h : model.h * model.h) / bonds_across(model);
     std::map<double, std::size_t> counts;
     for (const std::size_t bond : broken)
       ++counts[model.toughness_of_bonds[bond]];
@@ -131,6 +134,16 @@ namespace plumbline::study
       parts.push_back({toughness, n, static_cast<double>(n) * of_bond});
     return parts;
   }
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &,            \
+                                                    const std::vector<Event> &);                   \
+  template double bonds_across(const method::BreakableBody<dim> &);                                \
+  template std::vector<BrokenPart> broken_parts(const method::BreakableBody<dim> &,                \
+                                                const std::vector<std::size_t> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 
   namespace
   {
@@ -224,12 +237,30 @@ namespace plumbline::study
       record.set("first advance event", static_cast<double>(event));
     }
 
+    void set_end(const Growth &growth, Record &record)
+    {
+      record.set("reaction left", growth.reaction_left());
+      record.set("last load", growth.last_load);
+      record.set("first stiffness", growth.first_stiffness, "force");
+      record.set("resumed", static_cast<double>(growth.n_resumed));
+      record.texts["end"] = base::word(growth.end);
+      record.texts["connected"] = growth.is_separated ? "no" : "yes";
+    }
+
+    void add_broken(const std::vector<Event> &events, Record &record)
+    {
+      analysis::Curve broken = curve_of({"event", "bond"});
+      for (std::size_t i = 0; i < events.size(); ++i)
+        for (const std::size_t bond : events[i].bonds)
+          add_row(broken, {static_cast<double>(i), static_cast<double>(bond)});
+      record.curves["broken"] = std::move(broken);
+    }
+
     void add_events(const GrowthFindings &found, Record &record)
     {
       analysis::Curve events = curve_of(
           {"event", "critical load", "load", "bonds", "reaction before", "reaction", "work",
            "stored", "in bonds", "released", "residual", "factored", "tip x", "tip y", "way"});
-      analysis::Curve broken = curve_of({"event", "bond"});
       for (std::size_t i = 0; i < found.growth.events.size(); ++i)
       {
         const Event &e = found.growth.events[i];
@@ -239,11 +270,9 @@ namespace plumbline::study
                  e.reaction_before, e.reaction, e.work, e.stored, e.in_bonds, e.released,
                  e.residual, e.is_factored ? 1. : 0., found.origin[0] + tip[0],
                  found.origin[1] + tip[1], tip.distance(found.notch_tip)});
-        for (const std::size_t bond : e.bonds)
-          add_row(broken, {static_cast<double>(i), static_cast<double>(bond)});
       }
       record.curves["events"] = std::move(events);
-      record.curves["broken"] = std::move(broken);
+      add_broken(found.growth.events, record);
     }
 
     void add_path(const GrowthFindings &found, Record &record)
@@ -262,6 +291,19 @@ namespace plumbline::study
       record.curves["notch"] = std::move(notch);
     }
 
+    void add_moments_and_parts(const std::vector<GrowthMoment> &found_moments,
+                               const std::vector<BrokenPart> &found_parts, Record &record)
+    {
+      analysis::Curve moments = curve_of({"events", "load"});
+      for (const GrowthMoment &moment : found_moments)
+        add_row(moments, {static_cast<double>(moment.n_events), moment.load});
+      record.curves["moments"] = std::move(moments);
+      analysis::Curve parts = curve_of({"G", "bonds", "length"});
+      for (const BrokenPart &part : found_parts)
+        add_row(parts, {part.toughness, static_cast<double>(part.n_bonds), part.length});
+      record.curves["parts"] = std::move(parts);
+    }
+
     void add_fields(const GrowthFindings &found, Record &record)
     {
       analysis::PointField damage{static_cast<unsigned int>(found.moments.size()), found.nodes, {}};
@@ -275,14 +317,7 @@ namespace plumbline::study
         for (const GrowthMoment &moment : found.moments)
           damage.values.push_back(moment.damage[i]);
       record.fields["damage"] = std::move(damage);
-      analysis::Curve moments = curve_of({"events", "load"});
-      for (const GrowthMoment &moment : found.moments)
-        add_row(moments, {static_cast<double>(moment.n_events), moment.load});
-      record.curves["moments"] = std::move(moments);
-      analysis::Curve parts = curve_of({"G", "bonds", "length"});
-      for (const BrokenPart &part : found.parts)
-        add_row(parts, {part.toughness, static_cast<double>(part.n_bonds), part.length});
-      record.curves["parts"] = std::move(parts);
+      add_moments_and_parts(found.moments, found.parts, record);
     }
   } // namespace
 
@@ -300,17 +335,125 @@ namespace plumbline::study
     record.set("plane modulus", found.plane_modulus, "force/length^2");
     record.set("width", path.width, "length");
     record.set("apart", static_cast<double>(path.n_elsewhere));
-    record.set("reaction left", growth.reaction_left());
-    record.set("last load", growth.last_load);
-    record.set("first stiffness", growth.first_stiffness, "force");
-    record.set("resumed", static_cast<double>(growth.n_resumed));
     record.set("unpaired", static_cast<double>(found.n_unpaired));
-    record.texts["end"] = base::word(growth.end);
-    record.texts["connected"] = growth.is_separated ? "no" : "yes";
+    set_end(growth, record);
     add_events(found, record);
     add_path(found, record);
     add_fields(found, record);
     return record;
+  }
+
+  namespace
+  {
+    double mean(const std::vector<double> &values)
+    {
+      double sum = 0;
+      for (const double one : values)
+        sum += one;
+      return sum / static_cast<double>(values.size());
+    }
+
+    void add_front(const FrontFindings &found, Record &record)
+    {
+      const CrackFront &front = found.front;
+      analysis::Curve events = curve_of(
+          {"event", "critical load", "load", "bonds", "reaction before", "reaction", "work",
+           "stored", "in bonds", "released", "residual", "factored", "way", "way min", "way max"});
+      for (std::size_t i = 0; i < found.growth.events.size(); ++i)
+      {
+        const Event &e = found.growth.events[i];
+        const auto [least, most] = std::minmax_element(front.way[i].begin(), front.way[i].end());
+        add_row(events,
+                {static_cast<double>(i), e.critical, e.load, static_cast<double>(e.bonds.size()),
+                 e.reaction_before, e.reaction, e.work, e.stored, e.in_bonds, e.released,
+                 e.residual, e.is_factored ? 1. : 0., mean(front.way[i]), *least, *most});
+      }
+      record.curves["events"] = std::move(events);
+      add_broken(found.growth.events, record);
+      analysis::Curve line = curve_of({"moment", "events", "z", "way"}),
+                      sides = curve_of({"event", "z", "x0", "y0", "x1", "y1", "joined"});
+      for (std::size_t k = 0; k < found.moments.size(); ++k)
+        for (std::size_t l = 0; l < front.z.size(); ++l)
+          add_row(
+              line,
+              {static_cast<double>(k), static_cast<double>(found.moments[k].n_events), front.z[l],
+               found.moments[k].n_events == 0 ? 0 : front.way[found.moments[k].n_events - 1][l]});
+      for (std::size_t l = 0; l < front.z.size(); ++l)
+        for (const CrackSide &side : front.layers[l].sides)
+          add_row(sides,
+                  {static_cast<double>(side.event), front.z[l], side.ends[0][0], side.ends[0][1],
+                   side.ends[1][0], side.ends[1][1], side.is_joined ? 1. : 0.});
+      record.curves["front"] = std::move(line);
+      record.curves["sides"] = std::move(sides);
+    }
+
+    /// Loads of the first broken bond and of the first event that moves the front.
+    void set_beginnings(const FrontFindings &found, Record &record)
+    {
+      const std::vector<Event> &events = found.growth.events;
+      if (!events.empty())
+        record.set("first break", events.front().load);
+      for (std::size_t i = 0; i < events.size(); ++i)
+        if (mean(found.front.way[i]) > 0)
+        {
+          record.set("first advance", events[i].load);
+          record.set("first advance event", static_cast<double>(i));
+          return;
+        }
+    }
+
+    /// Of the layer in the middle of the thickness.
+    analysis::PointField damage_in_the_middle(const FrontFindings &found)
+    {
+      const double z = found.front.z[(found.front.z.size() - 1) / 2];
+      analysis::PointField damage{static_cast<unsigned int>(found.moments.size()), {}, {}};
+      for (std::size_t i = 0; i < found.nodes.size(); ++i)
+        if (std::abs(found.nodes[i][2] - z) < .5 * found.h)
+        {
+          damage.points.emplace_back(found.nodes[i][0], found.nodes[i][1]);
+          for (const GrowthMoment &moment : found.moments)
+            damage.values.push_back(moment.damage[i]);
+        }
+      return damage;
+    }
+  } // namespace
+
+  Record growth_record(Record record, const FrontFindings &found)
+  {
+    const Growth &growth = found.growth;
+    set_events(growth.events, record);
+    set_beginnings(found, record);
+    const std::vector<double> way = growth.events.empty()
+                                        ? std::vector<double>(found.front.z.size(), 0)
+                                        : found.front.way.back();
+    record.set("advance", mean(way), "length");
+    record.set("advance min", *std::min_element(way.begin(), way.end()), "length");
+    record.set("advance max", *std::max_element(way.begin(), way.end()), "length");
+    if (found.front.area > 0)
+    {
+      double sum = 0;
+      for (const BrokenPart &part : found.parts)
+        sum += part.toughness * part.length;
+      record.set("G by bonds", sum / found.front.area, "force/length");
+      record.set("G by energy",
+                 (growth.events.back().in_bonds + growth.events.back().released) / found.front.area,
+                 "force/length");
+    }
+    record.set("area", found.front.area, "length^2");
+    record.set("apart", static_cast<double>(found.front.n_elsewhere));
+    record.set("unpaired", static_cast<double>(found.n_unpaired_in_y));
+    record.set("unpaired in z", static_cast<double>(found.n_unpaired_in_z));
+    set_end(growth, record);
+    add_front(found, record);
+    add_moments_and_parts(found.moments, found.parts, record);
+    record.curves["phases"] = {{"G", "force/length", {}}};
+    record.fields["damage"] = damage_in_the_middle(found);
+    return record;
+  }
+
+  bool is_in_space(const Record &record)
+  {
+    return record.curves.count("front") > 0;
   }
 
   bool is_corrected(const Record &record)
@@ -338,7 +481,7 @@ namespace plumbline::study
     return all;
   }
 
-  std::vector<std::string> left_out_of_growth(bool is_corrected)
+  std::vector<std::string> left_out_of_growth(bool is_corrected, bool is_in_space)
   {
     std::vector<std::string> result = {
         "equilibrium at all times: no inertia, rate dependence or heat; the energy released in "
@@ -346,8 +489,10 @@ namespace plumbline::study
         "the load never decreases, so that a snap-back is passed at the load at which it begins",
         "bonds break irreversibly, by their tensile stretch alone; crack faces transmit pressure "
         "only through intact bonds",
-        "two dimensions, one lattice: cracks tend to follow its rows and columns, the more so the "
-        "fewer neighbours nodes have (Study/m)",
+        std::string(is_in_space ? "one lattice: cracks tend to follow its planes"
+                                : "two dimensions, one lattice: cracks tend to follow its rows and "
+                                  "columns") +
+            ", the more so the fewer neighbours nodes have (Study/m)",
         "no contact, friction or large rotations; Fracture/stretch = finite uses the finite "
         "stretch of small displacements"};
     result.push_back(

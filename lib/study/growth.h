@@ -24,7 +24,7 @@ namespace plumbline::study
   /// checkpoints on the way: the result has the same bits wherever it was stopped.
   /// @throws InputError  a checkpoint that cannot be read or written
   /// @throws NumericalError  as analysis::grow; Interrupted
-  analysis::Growth run_growth(const GrowthModel &model, const GrowthPlan &plan);
+  analysis::Growth run_growth(method::QuasistaticFractureModel &body, const GrowthPlan &plan);
 
   /// A side between the cells of two next neighbours whose bond broke.
   struct CrackSide
@@ -54,17 +54,22 @@ namespace plumbline::study
   /// What a crack has broken of a material, a phase or an interface of one toughness.
   struct BrokenPart
   {
-    double toughness = 0; ///< G [force/length]
+    double toughness = 0; ///< G [force/length^(dim-1)]
     std::size_t n_bonds = 0;
-    double length = 0; ///< of a straight crack that breaks as many bonds
+    double length = 0; ///< of a straight crack that breaks as many bonds; in space its area
   };
 
+  // Instantiated for dim = 2 and 3.
+
   /// By toughness, the weakest first.
-  std::vector<BrokenPart> broken_parts(const GrowthModel &model,
+  template <int dim>
+  std::vector<BrokenPart> broken_parts(const method::BreakableBody<dim> &model,
                                        const std::vector<std::size_t> &broken);
 
-  /// Bonds that a straight crack along a row of nodes breaks for each column of them: 18 at m = 3.
-  double bonds_across(const GrowthModel &model);
+  /// Bonds that a straight crack across y, along a row of nodes, breaks for each column of them: 18
+  /// at m = 3; in space along a plane of them, for each node.
+  template <int dim>
+  double bonds_across(const method::BreakableBody<dim> &model);
 
   /// A picture of the body, after so many events.
   struct GrowthMoment
@@ -76,8 +81,9 @@ namespace plumbline::study
 
   constexpr std::size_t n_growth_moments = 6;
 
-  /// After even parts of all broken bonds, from none to all.
-  std::vector<GrowthMoment> growth_moments(const GrowthModel &model,
+  /// After even parts of all broken bonds, from none to all. Instantiated for dim = 2 and 3.
+  template <int dim>
+  std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &model,
                                            const std::vector<analysis::Event> &events);
 
   /// A growth and what is found out of it.
@@ -113,6 +119,48 @@ namespace plumbline::study
   /// varies.
   Record growth_record(Record record, const GrowthFindings &found);
 
+  /// Where a crack went in space. In each layer z = const of nodes it is the path of those bonds
+  /// that lie in it, see CrackPath; the front is the line through the tips of all layers.
+  struct CrackFront
+  {
+    std::vector<double> z;                ///< of the layers, ascending [length]
+    std::vector<CrackPath> layers;        ///< of each
+    std::vector<std::vector<double>> way; ///< of the tips from the notch's, after each event, shape
+                                          ///< (n_events, n_layers) [length]
+    double area = 0;             ///< of all sides that parted, projected onto the plane of x and z
+    std::size_t n_elsewhere = 0; ///< sides apart from the crack
+  };
+  CrackFront find_front(const method::BreakableBody<3> &model,
+                        const std::vector<analysis::Event> &events);
+
+  /// Bonds that broke whose mirror images about the plane where an axis has this value did not, or
+  /// are none.
+  std::size_t n_unpaired(const method::BreakableBody<3> &model,
+                         const std::vector<std::size_t> &broken, unsigned int axis, double middle);
+
+  /// A growth in space and what is found out of it.
+  struct FrontFindings
+  {
+    analysis::Growth growth;
+    CrackFront front;
+    std::vector<GrowthMoment> moments;
+    std::vector<BrokenPart> parts;
+    std::vector<dealii::Point<3>> nodes;
+    dealii::Point<2> notch_tip;
+    double h = 0;
+    std::size_t n_unpaired_in_y = 0, n_unpaired_in_z = 0;
+  };
+
+  /// The same as a record, as growth_record but for what is of the plane alone: no K, no phases.
+  ///
+  /// Scalars: "advance", "advance min" and "advance max" are the mean, the smallest and the largest
+  /// way of the front's layers from the notch [length]; "area" in place of the width [length^2];
+  /// "unpaired" about the middle of y and "unpaired in z" about the middle of the thickness.
+  /// Curves: "events" with "way", "way min" and "way max" of the front; "front" with the way of
+  /// each layer at the moments; "sides" with z. Field "damage" is that of the layer in the middle
+  /// of the thickness, the lower one of two.
+  Record growth_record(Record record, const FrontFindings &found);
+
   /// The forces of a record's body have no energy: its text "surface terms" says so.
   bool is_corrected(const Record &record);
 
@@ -122,5 +170,8 @@ namespace plumbline::study
                                               const scene::ExpectedSection &expected);
 
   /// What is not in the model, for reports.
-  std::vector<std::string> left_out_of_growth(bool is_corrected);
+  std::vector<std::string> left_out_of_growth(bool is_corrected, bool is_in_space = false);
+
+  /// A record is of a body in space.
+  bool is_in_space(const Record &record);
 } // namespace plumbline::study

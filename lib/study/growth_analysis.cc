@@ -24,27 +24,69 @@ namespace plumbline::study
 
   namespace
   {
-    /// @param trapping  G is divided by it
-    method::BreakingSolid<2> make_solid(const scene::Scene &scene, double horizon, double trapping)
+    double value_at(const physics::Expression &expression, const Point<2> &x,
+                    unsigned int component)
     {
-      method::BreakingSolid<2> solid;
+      return expression(x, component);
+    }
+    double value_at(const physics::Expression &expression, const Point<3> &x,
+                    unsigned int component)
+    {
+      return expression.at(x, component);
+    }
+
+    /// What boxes of x and y are in space: through the whole thickness.
+    std::vector<geometry::Cuboid> through_thickness(const std::vector<geometry::Box> &boxes,
+                                                    const geometry::Solid &solid)
+    {
+      double lower = solid.include.front().lower[2], upper = solid.include.front().upper[2];
+      for (const geometry::Cuboid &one : solid.include)
+      {
+        lower = std::min(lower, one.lower[2]);
+        upper = std::max(upper, one.upper[2]);
+      }
+      std::vector<geometry::Cuboid> result;
+      for (const geometry::Box &box : boxes)
+        result.push_back(
+            {{box.lower[0], box.lower[1], lower}, {box.upper[0], box.upper[1], upper}});
+      return result;
+    }
+
+    void set_boxes(const scene::Scene &scene, method::BreakingSolid<2> &solid)
+    {
       solid.domain = scene.domain.boxes;
       solid.grips = scene.domain.fixed;
       solid.unbreaking = scene.fracture.unbreaking;
+      solid.material = scene.material.lame();
+    }
+    void set_boxes(const scene::Scene &scene, method::BreakingSolid<3> &solid)
+    {
+      solid.domain = scene.domain.solid;
+      solid.grips = through_thickness(scene.domain.fixed, solid.domain);
+      solid.unbreaking = through_thickness(scene.fracture.unbreaking, solid.domain);
+      solid.material = [lame = scene.material.lame()({})](const Point<3> &) { return lame; };
+    }
+
+    /// @param trapping  G is divided by it
+    template <int dim>
+    method::BreakingSolid<dim> make_solid(const scene::Scene &scene, double horizon,
+                                          double trapping)
+    {
+      method::BreakingSolid<dim> solid;
+      set_boxes(scene, solid);
       solid.notch = scene.domain.cracks;
       const physics::Expression constrained("Problem/constraint", *scene.problem.constraint,
                                             scene.names(horizon)),
           toughness("Fracture/toughness", scene.fracture.toughness, scene.names(horizon));
-      solid.constrained = [constrained](const Point<2> &x)
+      solid.constrained = [constrained](const Point<dim> &x)
       {
-        Tensor<1, 2> u;
-        for (unsigned int d = 0; d < 2; ++d)
-          u[d] = constrained(x, d);
+        Tensor<1, dim> u;
+        for (unsigned int d = 0; d < dim; ++d)
+          u[d] = value_at(constrained, x, d);
         return u;
       };
-      solid.material = scene.material.lame();
       solid.surface_terms = scene.fracture.surface_terms;
-      solid.toughness = [toughness](const Point<2> &x) { return toughness(x); };
+      solid.toughness = [toughness](const Point<dim> &x) { return value_at(toughness, x, 0); };
       solid.takes_least_toughness = scene.fracture.of_bonds == problem::BondToughness::minimum;
       for (std::size_t k = 0; k < scene.fracture.interfaces.size(); ++k)
         solid.interfaces.push_back(
@@ -97,14 +139,15 @@ namespace plumbline::study
           ->peak;
     }
 
-    /// y in the middle of the body.
-    double middle(const scene::Scene &scene)
+    /// The middle of the body along an axis.
+    template <class Box>
+    double middle(const std::vector<Box> &boxes, unsigned int axis)
     {
-      double lower = scene.domain.boxes.include.front().lower[1], upper = lower;
-      for (const geometry::Box &box : scene.domain.boxes.include)
+      double lower = boxes.front().lower[axis], upper = lower;
+      for (const Box &box : boxes)
       {
-        lower = std::min(lower, box.lower[1]);
-        upper = std::max(upper, box.upper[1]);
+        lower = std::min(lower, box.lower[axis]);
+        upper = std::max(upper, box.upper[axis]);
       }
       return .5 * (lower + upper);
     }
@@ -122,14 +165,15 @@ namespace plumbline::study
       return sum / static_cast<double>(nodes.size());
     }
 
+    template <int dim>
     std::vector<double> toughness_of_nodes(const scene::Scene &scene,
-                                           const std::vector<Point<2>> &nodes, double horizon)
+                                           const std::vector<Point<dim>> &nodes, double horizon)
     {
       const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
                                           scene.names(horizon));
       std::vector<double> at_nodes;
-      for (const Point<2> &node : nodes)
-        at_nodes.push_back(toughness(node));
+      for (const Point<dim> &node : nodes)
+        at_nodes.push_back(value_at(toughness, node, 0));
       return at_nodes;
     }
 
@@ -168,6 +212,11 @@ namespace plumbline::study
     {
       constexpr int n = 16; // along each side
       const auto material = scene.material.lame();
+      if (scene.domain.is_in_space()) // where it is homogeneous
+      {
+        const physics::Lame lame = material({});
+        return std::abs(lame.lambda - lame.mu) <= 1e-12 * lame.mu;
+      }
       for (const geometry::Box &box : scene.domain.boxes.include)
         for (int k = 0; k < n * n; ++k)
         {
@@ -184,14 +233,15 @@ namespace plumbline::study
   namespace
   {
     /// The scene's body at its level.
-    GrowthModel make_body(const scene::Scene &scene, const Method &method,
-                          const physics::Kernel<2> &influence, double trapping,
-                          problem::GrowthSolver solver)
+    template <int dim>
+    method::BreakableBody<dim> make_body(const scene::Scene &scene, const Method &method,
+                                         const physics::Kernel<dim> &influence, double trapping,
+                                         problem::GrowthSolver solver)
     {
       try
       {
         return method.fracture_solver()->breakable_body(
-            make_solid(scene, influence.horizon(), trapping), influence,
+            make_solid<dim>(scene, influence.horizon(), trapping), influence,
             scene.study.series.front().levels.front().h, scene.geometry.backend,
             scene.fracture.stretch, solver);
       }
@@ -224,21 +274,36 @@ namespace plumbline::study
     const problem::Level &level = scene.study.series.front().levels.front();
     const double m = level.horizon / level.h;
     const Point<2> tip = scene.domain.cracks.front().back(), mouth = scene.domain.cracks.front()[0];
+    const bool is_in_space = scene.domain.is_in_space();
     GrowthSize size;
-    double way = 0; // along x from the notch's tip to the far side
-    for (const geometry::Box &box : scene.domain.boxes.include)
+    double way = 0, layers = 1; // along x from the notch's tip to the far side; of nodes in z
+    const auto add_box = [&](const auto &box)
     {
       size.n_nodes +=
           (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
       way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
+    };
+    if (!is_in_space)
+      for (const geometry::Box &box : scene.domain.boxes.include)
+        add_box(box);
+    for (const geometry::Cuboid &box : scene.domain.solid.include)
+    {
+      const double n = size.n_nodes;
+      add_box(box);
+      layers = (box.upper[2] - box.lower[2]) / level.h;
+      size.n_nodes = n + layers * (size.n_nodes - n);
     }
-    size.n_bonds = .5 * M_PI * m * m * size.n_nodes;
+    // half the ball's area or volume, in nodes
+    size.n_bonds = (is_in_space ? 2. / 3 * M_PI * m : .5 * M_PI) * m * m * size.n_nodes;
     const bool is_bonds = is_of_bonds(scene);
     // with dilatations the reach is twice as far; nested dissection: entries of the factor grow
-    // with the logarithm of n
-    const double n_entries = 4 * M_PI * m * m * (is_bonds ? 1 : 4) * size.n_nodes,
-                 n_factor = (is_bonds ? 6 : 18) * m * m * size.n_nodes *
-                            std::log2(std::max(2., size.n_nodes));
+    // with the logarithm of n a node, in space with its cube root
+    const double n_entries = (is_in_space ? 18 * (is_bonds ? 1 : 8) : 8 * (is_bonds ? 1 : 4)) *
+                             size.n_bonds,
+                 n_factor = is_in_space
+                                ? (is_bonds ? 22 : 88) * m * m * std::pow(size.n_nodes, 4. / 3)
+                                : (is_bonds ? 6 : 18) * m * m * size.n_nodes *
+                                      std::log2(std::max(2., size.n_nodes));
     // bonds with their books; the factor with entries of the matrix while it is made, and room for
     // some 400 solutions of Woodbury's formula; or the matrix, multigrid's copy and coarser levels
     size.factor_bytes = 400 * size.n_bonds + 16 * n_factor + 6400 * size.n_nodes;
@@ -249,7 +314,8 @@ namespace plumbline::study
           scene.fracture.can_iterate() && n_jobs * size.factor_bytes > base::available_memory()
               ? problem::GrowthSolver::multigrid
               : problem::GrowthSolver::factor;
-    size.n_breaks = 2. / 3 * m * m * m * way / level.h; // 18 a column of nodes at m = 3
+    // 18 a column of nodes at m = 3 in the plane
+    size.n_breaks = (is_in_space ? .25 * M_PI * m * layers : 2. / 3) * m * m * m * way / level.h;
     // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
     // factors; or iterations of 6.6 ns an entry of the matrix, and a fourth of that for set-ups
     const double n_iterations = 1.5 * std::pow(2 * size.n_nodes, .25);
@@ -278,8 +344,9 @@ namespace plumbline::study
     }
 
     /// The solid, as it was solved and why.
-    void describe(const scene::Scene &scene, const GrowthModel &model, problem::GrowthSolver solver,
-                  Record &record)
+    template <int dim>
+    void describe(const scene::Scene &scene, const method::BreakableBody<dim> &model,
+                  problem::GrowthSolver solver, Record &record)
     {
       const problem::FractureSettings &rules = scene.fracture;
       record.key.problem = base::word(rules.breaking);
@@ -300,6 +367,13 @@ namespace plumbline::study
     }
 
     /// At which a bond breaks whose ends are both like one node, the smallest of all nodes.
+    double critical_stretch(const scene::Scene &scene, const method::BreakableBody<3> &model,
+                            double horizon, double trapping)
+    {
+      const physics::Lame lame = scene.material.lame()({});
+      return std::sqrt(*std::min_element(model.toughness.begin(), model.toughness.end()) /
+                       (.6 * horizon * trapping * (3 * lame.lambda + 2 * lame.mu)));
+    }
     double critical_stretch(const scene::Scene &scene, const GrowthModel &model, double horizon,
                             double trapping)
     {
@@ -345,12 +419,36 @@ namespace plumbline::study
       record.set("most iterations", static_cast<double>(work.most_iterations));
     }
 
-    GrowthFindings find_out(const scene::Scene &scene, const GrowthModel &model,
-                            analysis::Growth growth)
+    std::vector<std::size_t> all_broken(const analysis::Growth &growth)
     {
       std::vector<std::size_t> broken;
       for (const analysis::Event &event : growth.events)
         broken.insert(broken.end(), event.bonds.begin(), event.bonds.end());
+      return broken;
+    }
+
+    FrontFindings find_out(const scene::Scene &scene, const method::BreakableBody<3> &model,
+                           analysis::Growth growth)
+    {
+      const std::vector<std::size_t> broken = all_broken(growth);
+      const std::vector<geometry::Cuboid> &boxes = scene.domain.solid.include;
+      FrontFindings found;
+      found.front = find_front(model, growth.events);
+      found.moments = growth_moments(model, growth.events);
+      found.parts = broken_parts(model, broken);
+      found.nodes = model.nodes;
+      found.notch_tip = model.notch_tip;
+      found.h = model.h;
+      found.n_unpaired_in_y = n_unpaired(model, broken, 1, middle(boxes, 1));
+      found.n_unpaired_in_z = n_unpaired(model, broken, 2, middle(boxes, 2));
+      found.growth = std::move(growth);
+      return found;
+    }
+
+    GrowthFindings find_out(const scene::Scene &scene, const GrowthModel &model,
+                            analysis::Growth growth)
+    {
+      const std::vector<std::size_t> broken = all_broken(growth);
       GrowthFindings found;
       found.path = find_path(model, growth.events);
       found.moments = growth_moments(model, growth.events);
@@ -360,41 +458,72 @@ namespace plumbline::study
       found.notch_tip = model.notch_tip;
       found.origin = scene.domain.origin;
       found.plane_modulus = mean_plane_modulus(scene, model.nodes);
-      found.n_unpaired = n_unpaired(model, broken, middle(scene));
+      found.n_unpaired = n_unpaired(model, broken, middle(scene.domain.boxes.include, 1));
       found.growth = std::move(growth);
       return found;
     }
 
-    Record analyse(const Place &place, const Method &method, const Checkpoints &checkpoints)
+    /// What the scene's nodes and bonds do not know of.
+    std::vector<std::string> find_notes(const scene::Scene &scene, const GrowthModel &model,
+                                        double horizon)
+    {
+      std::vector<std::string> notes = find_unseen(scene, model, horizon);
+      for (const geometry::TipOnBonds &tip :
+           geometry::tips_on_bonds(scene.domain.cracks, model.nodes, horizon))
+        notes.push_back(tip.text(scene.domain.origin));
+      return notes;
+    }
+    std::vector<std::string> find_notes(const scene::Scene & /*scene*/,
+                                        const method::BreakableBody<3> & /*model*/,
+                                        double /*horizon*/)
+    {
+      return {};
+    }
+
+    void write_moments(const GrowthFindings & /*found*/, const WriteDamage & /*write*/) {}
+    void write_moments(const FrontFindings &found, const WriteDamage &write)
+    {
+      std::vector<double> loads;
+      for (const GrowthMoment &moment : found.moments)
+      {
+        loads.push_back(moment.load);
+        if (write)
+          write(loads, found.nodes, moment.damage);
+      }
+    }
+
+    template <int dim>
+    Record analyse_in(const Place &place, const Method &method, const Checkpoints &checkpoints,
+                      const WriteDamage &write)
     {
       const scene::Scene &scene = place.scene();
       const problem::Level &level = place.level();
       const problem::GrowthSolver solver = expected_size(scene).solver;
-      const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
+      const auto influence = physics::influence_function<dim>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
       double trapping = 1;
-      if (scene.fracture.criterion == problem::Criterion::calibrated)
-      {
-        trapping = find_trapping(scene, method, influence, level.h);
-        record.set("G_peak / G", trapping);
-      }
-      GrowthModel model = make_body(scene, method, influence, trapping, solver);
+      if constexpr (dim == 2)
+        if (scene.fracture.criterion == problem::Criterion::calibrated)
+        {
+          trapping = find_trapping(scene, method, influence, level.h);
+          record.set("G_peak / G", trapping);
+        }
+      method::BreakableBody<dim> model = make_body(scene, method, influence, trapping, solver);
       model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
       describe(scene, model, solver, record);
       record.set("s0", critical_stretch(scene, model, level.horizon, trapping));
       describe_field(scene.random, record);
       record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
                                                                         scene.geometry.backend));
-      record.notes = find_unseen(scene, model, level.horizon);
-      for (const geometry::TipOnBonds &tip :
-           geometry::tips_on_bonds(scene.domain.cracks, model.nodes, level.horizon))
-        record.notes.push_back(tip.text(scene.domain.origin));
+      record.notes = find_notes(scene, model, level.horizon);
       const base::CpuTimer timer;
       analysis::Growth growth =
-          run_growth(model, {scene.fracture, "plumbline grow\n" + scene.text, checkpoints});
+          run_growth(*model.body, {scene.fracture, "plumbline grow\n" + scene.text, checkpoints});
       record.cost.solve_seconds = timer.seconds();
       set_work(model.body->work(), record);
-      return growth_record(std::move(record), find_out(scene, model, std::move(growth)));
+      const auto found = find_out(scene, model, std::move(growth));
+      write_moments(found, write);
+      return growth_record(std::move(record), found);
     }
 
     void conclude(const scene::Scene &scene, StudyResults &results)
@@ -410,6 +539,11 @@ namespace plumbline::study
 
   Analysis growth_analysis(const Checkpoints &checkpoints)
   {
+    return growth_analysis(checkpoints, {});
+  }
+
+  Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write)
+  {
     Analysis analysis{"grow", "Quasi-static fracture"};
     analysis.choose_methods = [](const scene::Scene &scene, const Methods &available, unsigned int,
                                  unsigned int n_jobs) -> Methods
@@ -422,7 +556,11 @@ namespace plumbline::study
       return {fracture_method(scene.methods.names.front(), available)};
     };
     analysis.analyse = [=](const Place &place, const Method &method) -> Records
-    { return {study::analyse(place, method, checkpoints)}; };
+    {
+      return {place.scene().domain.is_in_space()
+                  ? analyse_in<3>(place, method, checkpoints, write)
+                  : analyse_in<2>(place, method, checkpoints, write)};
+    };
     analysis.conclude = conclude;
     analysis.sampled.assign(scene::growth_quantities.begin(), scene::growth_quantities.end());
     analysis.sampled_field = "damage";

@@ -341,6 +341,70 @@ TEST(GrowCommand, begins_anew_when_a_picture_has_changed)
   fs::remove(picture);
 }
 
+namespace
+{
+  /// A plate of 10 x 10 x 3 nodes, m = 2.
+  std::string plate_in_space()
+  {
+    return std::string(PLUMBLINE_SCENES) +
+           "/three_d/notched_plate.prm --set Study/h=0.1 --set Expected/growth= "
+           "--set 'Domain/boxes=0, 0, 0 : 1, 1, 0.3' "
+           "--set 'Domain/fixed=0, 0.8 : 1, 1; 0, 0 : 1, 0.2' "
+           "--set 'Domain/cracks=-0.1, 0.5 : 0.4, 0.5'";
+  }
+} // namespace
+
+TEST(GrowCommand, follows_a_crack_front_in_space)
+{
+  const fs::path folder = temporary("grow_in_space");
+  const Outcome outcome = run("grow " + plate_in_space() + " --check -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "bonds break at");
+  const auto json = record(folder);
+  EXPECT_LT(scalar(json, "imbalance"), 1e-10);
+  EXPECT_EQ(scalar(json, "unpaired"), 0);
+  EXPECT_EQ(scalar(json, "unpaired in z"), 0);
+  // E = 1, nu = 1/4: k = 2/3; 5G/(9 k delta)
+  EXPECT_NEAR(scalar(json, "s0"), std::sqrt(5 / (9 * 2. / 3 * .2)), 1e-12);
+  // the ligament of 6 columns in 3 layers
+  EXPECT_NEAR(scalar(json, "advance"), .6, 1e-12);
+  EXPECT_NEAR(scalar(json, "advance min"), .6, 1e-12);
+  EXPECT_NEAR(scalar(json, "advance max"), .6, 1e-12);
+  EXPECT_NEAR(scalar(json, "area"), .6 * .3, 1e-12);
+  const auto way = events(json, "way"), least = events(json, "way min"),
+             most = events(json, "way max");
+  for (std::size_t i = 0; i < way.size(); ++i)
+  {
+    EXPECT_LE(least[i], way[i]);
+    EXPECT_LE(way[i], most[i]);
+  }
+  EXPECT_EQ(json["fields"]["damage"]["points"].size(), 200u); // the layer in the middle
+  for (const char *const name : {"grow/front.svg", "grow/front.csv", "grow/moments.svg",
+                                 "frames/damage.pvd", "frames/damage_00005.vtu"})
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  fs::remove_all(folder);
+}
+
+TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
+{
+  const std::string body = "grow " + plate_in_space() + " --quiet ";
+  const auto set = [&](const std::string &setting) { return body + "--set '" + setting + "'"; };
+  expect_refused(set("Fracture/surface terms=published"),
+                 "Domain/dimension = 3 does not support Fracture/surface terms = published yet; "
+                 "write uncorrected");
+  expect_refused(set("Fracture/criterion=calibrated"), "write toughness");
+  expect_refused(set("Domain/cracks=-0.1, 0.55 : 0.4, 0.55"), "goes through node");
+  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
+  expect_refused(set("Domain/cracks=-0.1, 0.5 : 3, 0.5"), "no path of bonds joins the grips");
+  expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
+  expect_refused(set("Domain/fixed=0, 0, 0 : 1, 1, 1"), "is not allowed");
+  expect_refused(set("Domain/outside=x - 2"), "clear both");
+  expect_refused(set("Problem/constraint=0, 1"), "component");
+  expect_refused(set("Fracture/toughness=z - 0.1"), "must be positive");
+  expect_refused(set("Material/E=1 + x"), "constants that vary in space");
+  expect_refused("run " + plate_in_space(), "Fracture/toughness is for 'plumbline grow'");
+}
+
 TEST(GrowCommand, refuses_what_cannot_grow)
 {
   const std::string body = "grow " + plate() + " --quiet ";

@@ -57,6 +57,28 @@ namespace
     throw InputError("no such bond");
   }
 
+  /// Layers z = 0, 1, ... like `comb`, bonds between layers too.
+  plumbline::method::BreakableBody<3> combs(unsigned int n_columns, unsigned int n_layers)
+  {
+    const GrowthModel flat = comb(n_columns);
+    const auto n = static_cast<unsigned int>(flat.nodes.size());
+    plumbline::method::BreakableBody<3> model;
+    model.h = 1;
+    model.notch_tip = flat.notch_tip;
+    for (unsigned int k = 0; k < n_layers; ++k)
+    {
+      for (const auto &x : flat.nodes)
+        model.nodes.push_back({x[0], x[1], k + 0.});
+      for (const auto &[from, to] : flat.bonds)
+        model.bonds.push_back({from + k * n, to + k * n});
+      for (const auto &[from, to] : flat.cut)
+        model.cut.push_back({from + k * n, to + k * n});
+    }
+    for (unsigned int i = 0; i < (n_layers - 1) * n; ++i)
+      model.bonds.push_back({i, i + n});
+    return model;
+  }
+
   /// G of each bond is the mean of its ends'.
   void take_means(GrowthModel &model)
   {
@@ -323,7 +345,7 @@ TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)
   const auto grown_from = [&](const std::string &subject, const std::vector<double> &records)
   {
     analysis::write_checkpoint(file.string(), {subject, {}, records});
-    return run_growth(model, plan).n_resumed;
+    return run_growth(*model.body, plan).n_resumed;
   };
   const std::vector<double> one = {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 2, 3, 1};
   EXPECT_EQ(grown_from("body", one), 1u);
@@ -336,4 +358,31 @@ TEST(Growth, a_checkpoint_that_is_not_its_own_is_refused)
            {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, -1, 3}})
     EXPECT_THROW(grown_from("body", wrong), InputError);
   std::filesystem::remove_all(checkpoints.folder);
+}
+
+TEST(CrackFront, is_the_tip_of_each_layer)
+{
+  const GrowthModel flat = comb(8);
+  const auto model = combs(8, 3);
+  const std::size_t in_layer = flat.bonds.size();
+  const auto broken = [&](double x, double y, std::size_t layer)
+  { return bond(flat, x, y) + layer * in_layer; };
+  std::vector<Event> events(4);
+  events[0].bonds = {broken(3.5, 0, 1)};
+  events[1].bonds = {broken(4.5, 0, 1), 3 * in_layer + 5};  // the second goes along z
+  events[2].bonds = {broken(3.5, 0, 0), broken(7.5, 0, 2)}; // the second is apart
+  events[3].bonds = {broken(3.5, 0, 2)};
+  const study::CrackFront front = study::find_front(model, events);
+  EXPECT_EQ(front.z, (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(front.way,
+            (std::vector<std::vector<double>>{{0, 1, 0}, {0, 2, 0}, {1, 2, 0}, {1, 2, 1}}));
+  EXPECT_EQ(front.n_elsewhere, 1u);
+  EXPECT_EQ(front.area, 5);
+  EXPECT_EQ(bonds_across(model), 1);
+  std::vector<std::size_t> all;
+  for (const Event &event : events)
+    all.insert(all.end(), event.bonds.begin(), event.bonds.end());
+  EXPECT_EQ(study::n_unpaired(model, all, 1, 0), 1u); // all but the one along z lie across y = 0
+  EXPECT_EQ(study::n_unpaired(model, {all[0], all[1]}, 2, 1), 0u);
+  EXPECT_EQ(study::n_unpaired(model, {broken(4.5, 0, 0)}, 2, 1), 1u);
 }

@@ -30,12 +30,13 @@ namespace plumbline::scene
   void DomainSection::declare(Keys &keys)
   {
     mesh_files = std::make_shared<MeshFiles>();
-    keys.add("dimension", dimension, count(1, 3),
-             "2: the plane. 1: a line, the first axis of the boxes; expressions depend on x and "
-             "have one component (transient analyses of Material/model = double well with "
-             "Domain/boundary = periodic). 3: space; expressions depend on x, y and z "
-             "(static, transient and dispersion analyses of linear models with Domain/mesh = "
-             "lattice).");
+    keys.add(
+        "dimension", dimension, count(1, 3),
+        "2: the plane. 1: a line, the first axis of the boxes; expressions depend on x and "
+        "have one component (transient analyses of Material/model = double well with "
+        "Domain/boundary = periodic). 3: space; expressions depend on x, y and z "
+        "(static, transient and dispersion analyses and quasi-static fracture of linear models "
+        "with Domain/mesh = lattice).");
     keys.add(
         "boxes", "0, 0 : 1, 1", any_boxes(),
         [this](const std::string &text)
@@ -119,14 +120,16 @@ namespace plumbline::scene
         "Boxes where u is prescribed in a free body, written like boxes: at nodes whose cell "
         "overlaps a box (the grips of 'plumbline grow' too), and in mesh cells whose centroid is "
         "in a box. none: the body is unconstrained and has rigid-body modes; 'plumbline stability' "
-        "analyses it, 'plumbline run' refuses it. [length]");
+        "analyses it, 'plumbline run' refuses it. In three dimensions ('plumbline grow') each box "
+        "of x and y extends through the whole thickness along z. [length]");
     keys.add(
         "cracks", "", lines(),
         [this](const std::string &text) { cracks = to_lines(text, lines()); },
         "Cracks as polylines 'x0, y0 : x1, y1', with more points for bends, separated by ';'. "
         "Bonds across them are broken in meshfree methods, and for bond-based materials in "
-        "Galerkin methods as well; Material/model = LPS makes the crack faces traction-free. "
-        "[length]");
+        "Galerkin methods as well; Material/model = LPS makes the crack faces traction-free. In "
+        "three dimensions ('plumbline grow') a polyline of x and y extends along z through the "
+        "whole body. [length]");
     keys.add("outside", outside,
              "An expression in x, y and delta that is positive beyond free surfaces: nodes of the "
              "interaction domain with a positive value are removed (Material/model = LPS).");

@@ -11,10 +11,12 @@ namespace plumbline::scene
   {
     keys.add(
         "toughness", toughness,
-        "Fracture toughness G > 0 (energy per unit area of crack), an expression in x and y. Each "
+        "Fracture toughness G > 0 (energy per unit area of crack), an expression in x and y (and z "
+        "in three dimensions). Each "
         "bond has the mean of G at its two ends (Fracture/bond toughness) and breaks at the "
         "critical stretch s0, s0^2 = pi G / (3 delta (lambda + mu)) for the influence function "
-        "1/r. 'plumbline grow' runs the scene. Empty: no bonds break. [force/length]");
+        "1/r, in three dimensions s0^2 = 5 G / (9 k delta) with the bulk modulus k. 'plumbline "
+        "grow' runs the scene. Empty: no bonds break. [force/length]");
     keys.add(
         "bond toughness", of_bonds,
         "mean: the mean of G at the two ends of a bond; features between nodes are not resolved. "
@@ -34,7 +36,8 @@ namespace plumbline::scene
         "toughness: the critical stretch s0 of the continuum formula. On a lattice a crack is "
         "trapped between rows of nodes and needs more energy (1.32 G for OPT and m = 3). "
         "calibrated: s0 divided by the square root of this factor, which one simulation in a strip "
-        "of eight horizons with the same rule and m determines, so that a crack propagates at G.");
+        "of eight horizons with the same rule and m determines, so that a crack propagates at G "
+        "(two dimensions).");
     keys.add("breaking", breaking,
              "events: the next critical bond and its ties, at the exact critical load; no load "
              "step is needed. batches: all over-stretched bonds at the load of an event. steps: "
@@ -70,7 +73,8 @@ namespace plumbline::scene
     keys.add(
         "no-fail zones", "", scene::boxes(),
         [this](const std::string &text) { unbreaking = to_boxes(text); },
-        "Boxes, written like Domain/boxes: bonds with an end in them do not break. Stresses near "
+        "Boxes 'x0, y0 : x1, y1', separated by ';', in three dimensions through the whole "
+        "thickness: bonds with an end in them do not break. Stresses near "
         "grips are high, and bonds would break there first. [length]");
     keys.add("checkpoint interval", interval, count(1, 100000),
              "Number of events between checkpoints; an interrupted run resumes from the last one.");
