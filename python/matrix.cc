@@ -1,5 +1,7 @@
 #include "analysis/statics.h"
 #include "arrays.h"
+#include "base/memory.h"
+#include "base/number_text.h"
 #include "bindings.h"
 #include "method/discretisation.h"
 #include "method/discretisation_in_space.h"
@@ -73,6 +75,17 @@ namespace plumbline::python
       return made;
     }
 
+    /// Before anything is made at another h: the entries of a matrix with so many nodes.
+    /// @throws InputError  they do not fit into memory
+    void require_memory_at(double h, double n_cells, double horizon, unsigned int dim,
+                           unsigned int n_components)
+    {
+      const double m = horizon / h, ball = dim == 2 ? M_PI * m * m : 4 * M_PI / 3 * m * m * m;
+      base::require_memory(n_cells * ball * std::pow(n_components, 2) *
+                               (sizeof(double) + sizeof(unsigned int)),
+                           "the matrix at h = " + base::to_text(h, 6), "choose a larger h");
+    }
+
     py::dict matrix(const problem::Case<2> &given, const py::object &method,
                     const std::optional<double> &h)
     {
@@ -87,7 +100,16 @@ namespace plumbline::python
         const py::gil_scoped_release others;
         std::optional<problem::Problem<2>> other;
         if (h)
+        {
+          const geometry::Lattice *lattice = given.problem.lattice();
+          const double n_cells =
+              lattice != nullptr
+                  ? static_cast<double>(lattice->n_cells()[0]) * lattice->n_cells()[1]
+                  : static_cast<double>(given.problem.cells()->n_free);
+          require_memory_at(*h, n_cells * std::pow(given.problem.h / *h, 2),
+                            given.problem.horizon(), 2, given.problem.n_components);
           other = given.at_h(*h);
+        }
         const problem::Problem<2> &problem = other ? *other : given.problem;
         refuse_unless_able(*found, problem);
         if (problem.is_periodic())
@@ -122,7 +144,12 @@ namespace plumbline::python
         const py::gil_scoped_release others;
         std::optional<problem::Problem<3>> other;
         if (h)
+        {
+          require_memory_at(*h,
+                            static_cast<double>(given.lattice.size()) * std::pow(given.h() / *h, 3),
+                            given.horizon(), 3, given.n_components);
           other = problem::at_spacing(given, *h);
+        }
         const problem::Problem<3> &problem = other ? *other : given;
         const auto discretisation = found->discretise_in_space(problem);
         made = equations_of<3>(*discretisation, found->name(), problem);

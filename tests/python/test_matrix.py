@@ -237,6 +237,8 @@ def test_problems_without_a_matrix_are_refused(root, scene, set, words):
     (lambda p: plumbline.matrix(p, "no such"), "no such"),
     (lambda p: plumbline.matrix(p, "FA", -1), "length above 0"),
     (lambda p: plumbline.matrix(p, "FA", .3), "h"),
+    (lambda p: plumbline.matrix(p, "FA", 1e-6), "the matrix at h = 1e-06.*choose a larger h"),
+    (lambda p: space.matrix(problem_in_space("scalar"), "FA", 2.**-12), "choose a larger h"),
     (lambda p: plumbline.matrix(problem_of("triangles"), "LOCAL"), "LOCAL.* has no sparse matrix"),
     (lambda p: plumbline.matrix(problem_of("scalar"), "FA") @ [1, 2], "give the values at all nodes"),
     (lambda p: plumbline.matrix(problem_of("scalar"), "FA").with_constraint([1]), "are unknown"),
