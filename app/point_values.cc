@@ -34,7 +34,7 @@ namespace plumbline::app
     }
 
     void write_header(std::ostream &out, std::size_t dimension, unsigned int n_components,
-                      bool has_exact, bool has_change, bool has_estimate)
+                      bool has_exact, bool has_change, bool has_estimate, bool has_gradient)
     {
       out << (dimension == 3 ? "x,y,z" : "x,y");
       const auto name = [&](const std::string &one)
@@ -50,7 +50,11 @@ namespace plumbline::app
       }
       if (has_change)
         name("change");
-      out << (has_estimate ? ",estimate\n" : "\n");
+      out << (has_estimate ? ",estimate" : "");
+      for (unsigned int c = 0; c < n_components && has_gradient; ++c)
+        for (std::size_t d = 0; d < dimension; ++d)
+          out << ',' << column("u", c, n_components) << '_' << "xyz"[d];
+      out << '\n';
     }
   } // namespace
 
@@ -137,7 +141,7 @@ namespace plumbline::app
     std::ofstream out(file);
     out.precision(std::numeric_limits<double>::max_digits10);
     write_header(out, points_.front().size(), n, !found.exact.empty(), !before.empty(),
-                 !found.estimate.empty());
+                 !found.estimate.empty(), !found.gradient.empty());
     for (std::size_t k = 0; k < points_.size(); ++k)
     {
       const char *separator = "";
@@ -163,6 +167,9 @@ namespace plumbline::app
         add(u[c] - before[k * n + c]);
       if (!found.estimate.empty())
         add(found.estimate[k]);
+      const std::size_t n_slopes = found.gradient.size() / points_.size();
+      for (std::size_t d = 0; d < n_slopes; ++d)
+        add(found.gradient[k * n_slopes + d]);
       out << '\n';
     }
     if (!out.flush())

@@ -90,6 +90,40 @@ namespace plumbline::python
   template py::array to_array(const std::vector<Point<2>> &);
   template py::array to_array(const std::vector<Point<3>> &);
 
+  template <int dim>
+  py::array
+  gradients(const std::function<dealii::Tensor<1, dim>(const Point<dim> &, unsigned int)> &gradient,
+            const std::vector<Point<dim>> &points, unsigned int n_components,
+            const std::string &method)
+  {
+    if (!gradient)
+      throw InputError("method '" + method +
+                       "' has no gradient: its solutions are not continuous; solve by a continuous "
+                       "Galerkin method, such as Q2 or P2");
+    std::vector<double> values;
+    {
+      const py::gil_scoped_release others;
+      values.reserve(points.size() * n_components * dim);
+      for (const Point<dim> &x : points)
+        for (unsigned int c = 0; c < n_components; ++c)
+        {
+          const dealii::Tensor<1, dim> one = gradient(x, c);
+          values.insert(values.end(), one.begin_raw(), one.end_raw());
+        }
+    }
+    const auto n = static_cast<py::ssize_t>(points.size());
+    if (n_components == 1)
+      return to_array(std::move(values), {n, dim});
+    return to_array(std::move(values), {n, static_cast<py::ssize_t>(n_components), dim});
+  }
+
+  template py::array
+  gradients(const std::function<dealii::Tensor<1, 2>(const Point<2> &, unsigned int)> &,
+            const std::vector<Point<2>> &, unsigned int, const std::string &);
+  template py::array
+  gradients(const std::function<dealii::Tensor<1, 3>(const Point<3> &, unsigned int)> &,
+            const std::vector<Point<3>> &, unsigned int, const std::string &);
+
   py::array to_components(std::vector<double> values, unsigned int n_components)
   {
     const auto n = static_cast<py::ssize_t>(values.size());

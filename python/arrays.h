@@ -9,6 +9,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,14 @@ namespace plumbline::python
   /// Shape (n, dim).
   template <int dim>
   py::array to_array(const std::vector<Point<dim>> &points);
+
+  /// Gradients at points: shape (n, dim), of several components (n, n_components, dim).
+  /// @throws InputError  there is no gradient
+  template <int dim>
+  py::array
+  gradients(const std::function<dealii::Tensor<1, dim>(const Point<dim> &, unsigned int)> &gradient,
+            const std::vector<Point<dim>> &points, unsigned int n_components,
+            const std::string &method);
 
   /// Of one component shape (n), else (n, n_components).
   py::array to_components(std::vector<double> values, unsigned int n_components);

@@ -228,8 +228,20 @@ namespace plumbline::python
       return {of, found->name(), analysis::solve(*found, of->problem)};
     }
 
-    Solved reference(std::shared_ptr<const Case> of, const py::object &method, bool estimate)
+    /// In the problem's own coordinates.
+    /// @throws InputError  a point outside
+    std::vector<Point<2>> to_inner_points(const problem::Problem<2> &problem, const Doubles &at);
+
+    /// @param points  where the error is estimated as well, or None
+    Solved reference(std::shared_ptr<const Case> of, const py::object &method, bool estimate,
+                     const py::object &at)
     {
+      std::vector<Point<2>> points;
+      if (!at.is_none())
+        points = to_inner_points(of->problem, at.cast<Doubles>());
+      if (!estimate && !points.empty())
+        throw InputError("reference: points are where the error is estimated; omit them, or let "
+                         "estimate = True");
       const auto *mesh = of->problem.mesh().get();
       const auto found = to_method(
           method.is_none() ? py::str(mesh != nullptr && mesh->is_triangles() ? "P2" : "Q2")
@@ -242,7 +254,7 @@ namespace plumbline::python
       refuse_unless_able(*found, of->problem);
       Solved result{of, found->name(), analysis::solve(*found, of->problem)};
       if (estimate)
-        result.estimate = study::estimate_error(*of, *found, result.solution, false);
+        result.estimate = study::estimate_error(*of, *found, result.solution, false, points);
       return result;
     }
 
@@ -256,15 +268,28 @@ namespace plumbline::python
                            ") lies outside of the domain; take it out");
     }
 
-    py::array values_at(const Solved &solved, const Doubles &at)
+    std::vector<Point<2>> to_inner_points(const problem::Problem<2> &problem, const Doubles &at)
     {
       std::vector<Point<2>> points = to_points(at, "points");
+      const py::gil_scoped_release others;
+      for (Point<2> &x : points)
+        x -= problem.origin - Point<2>();
+      require_inside(problem, points);
+      return points;
+    }
+
+    py::array gradients_at(const Solved &solved, const Doubles &at)
+    {
+      const std::vector<Point<2>> points = to_inner_points(solved.problem(), at);
+      return gradients<2>(solved.solution.gradient, points, solved.n_components(), solved.method);
+    }
+
+    py::array values_at(const Solved &solved, const Doubles &at)
+    {
+      const std::vector<Point<2>> points = to_inner_points(solved.problem(), at);
       std::vector<double> values;
       {
         const py::gil_scoped_release others;
-        for (Point<2> &x : points)
-          x -= solved.problem().origin - Point<2>();
-        require_inside(solved.problem(), points);
         for (const Point<2> &x : points)
           for (unsigned int c = 0; c < solved.n_components(); ++c)
             values.push_back(solved.solution.value(x, c));
@@ -312,8 +337,10 @@ namespace plumbline::python
     {
       if (!estimate)
         return py::none();
+      const py::object at_points =
+          estimate->at_points.empty() ? py::object(py::none()) : to_array(estimate->at_points);
       return py::dict("averages"_a = estimate->estimate, "field"_a = estimate->field_estimate,
-                      "certified_digits"_a = estimate->certified_digits,
+                      "at_points"_a = at_points, "certified_digits"_a = estimate->certified_digits,
                       "h_change"_a = estimate->h_change, "p_change"_a = estimate->p_change,
                       "outer_change"_a = estimate->outer_change,
                       "is_of_polygon"_a = estimate->is_of_polygon);
@@ -348,6 +375,11 @@ namespace plumbline::python
           .def("__call__", values_at, "points"_a,
                "u at points in the domain, shape (n, 2) [length]: shape (n,). Of meshfree methods "
                "the value of the cell that holds the point.")
+          .def(
+              "gradient", gradients_at, "points"_a,
+              "Gradient of u at points in the domain, shape (n, 2) [length]: shape (n, 2), of two "
+              "components (n, 2, 2) with du_c/dx_d at [:, c, d] [u/length]. Exact in the cell that "
+              "holds the point; of continuous Galerkin spaces only.")
           .def_property_readonly(
               "cost", [](const Solved &one) { return to_dict(one.solution.cost); },
               "setup_seconds, solve_seconds [CPU s], peak_bytes, n_unknowns, n_bonds, "
@@ -358,6 +390,7 @@ namespace plumbline::python
           .def_property_readonly(
               "estimate", [](const Solved &one) { return to_dict(one.estimate); },
               "Of reference(): bounds in practice of the L2 error, of averages and field; "
+              "at_points: of the error at its points, shape (n_points,), or None; "
               "certified_digits.")
           .def(
               "write_vtu",
@@ -434,10 +467,12 @@ load, constraint, solution, coefficient
         "of Python run meanwhile.");
     module.def(
         "reference",
-        [](std::shared_ptr<Case> problem, const py::object &method, bool estimate)
-        { return reference(std::move(problem), method, estimate); },
-        "problem"_a, "method"_a = py::none(), "estimate"_a = true,
+        [](std::shared_ptr<Case> problem, const py::object &method, bool estimate,
+           const py::object &points)
+        { return reference(std::move(problem), method, estimate, points); },
+        "problem"_a, "method"_a = py::none(), "estimate"_a = true, "points"_a = py::none(),
         "A Galerkin solution (default: Q2, of triangles P2) with an estimate of its error, "
-        "which takes about 20 times as long as the solution alone.");
+        "which takes about 20 times as long as the solution alone. At points in the domain, shape "
+        "(n, 2) [length], the error is estimated as well: estimate[\"at_points\"].");
   }
 } // namespace plumbline::python

@@ -147,6 +147,31 @@ namespace plumbline::python
       return {of, name, analysis::solve(*method, *of)};
     }
 
+    std::vector<Point<3>> to_inner_points(const ProblemInSpace &problem, const Doubles &at)
+    {
+      std::vector<Point<3>> points = to_points<3>(at, "points");
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (!problem.lattice.cell_at(points[k]))
+          throw InputError("points[" + std::to_string(k) + "] = (" + std::to_string(points[k][0]) +
+                           ", " + std::to_string(points[k][1]) + ", " +
+                           std::to_string(points[k][2]) +
+                           ") lies outside of the domain; take it out");
+      return points;
+    }
+
+    py::array values_at(const SolvedInSpace &solved, const Doubles &at)
+    {
+      const std::vector<Point<3>> points = to_inner_points(*solved.of, at);
+      std::vector<double> values;
+      {
+        const py::gil_scoped_release others;
+        for (const Point<3> &x : points)
+          for (unsigned int c = 0; c < solved.of->n_components; ++c)
+            values.push_back(solved.solution.value(x, c));
+      }
+      return to_components(std::move(values), solved.of->n_components);
+    }
+
     std::vector<Point<3>> centres(const ProblemInSpace &problem)
     {
       std::vector<Point<3>> points;
@@ -241,6 +266,57 @@ namespace plumbline::python
                       "n_bonds"_a = found.n_bonds, "n_negative"_a = found.n_negative,
                       "spacing"_a = found.spacing, "elastic"_a = elastic);
     }
+
+    void add_solution(py::module_ &module)
+    {
+      py::class_<SolvedInSpace>(module, "SpaceSolution",
+                                "What space.solve() returns. Of three components all values have a "
+                                "last axis of length 3.")
+          .def_readonly("method", &SolvedInSpace::method)
+          .def_property_readonly(
+              "nodes", [](const SolvedInSpace &one) { return to_array(one.solution.nodes); },
+              "The method's own free nodes, shape (n, 3) [length].")
+          .def_property_readonly(
+              "values",
+              [](const SolvedInSpace &one)
+              { return to_components(one.solution.nodal, one.of->n_components); },
+              "u at the nodes, shape (n,).")
+          .def_property_readonly(
+              "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
+              "Centres of the domain's cells, x fastest, shape (n_cells, 3) [length].")
+          .def_property_readonly(
+              "averages",
+              [](const SolvedInSpace &one)
+              { return to_components(one.solution.averages, one.of->n_components); },
+              "u averaged over the cells, shape (n_cells,).")
+          .def("__call__", values_at, "points"_a,
+               "u at points in the domain, shape (n, 3) [length]: shape (n,). Of meshfree methods "
+               "and DGQ0 the value of the cell that holds the point.")
+          .def(
+              "gradient",
+              [](const SolvedInSpace &one, const Doubles &points)
+              {
+                return gradients<3>(one.solution.gradient, to_inner_points(*one.of, points),
+                                    one.of->n_components, one.method);
+              },
+              "points"_a,
+              "Gradient of u at points in the domain, shape (n, 3) [length]: shape (n, 3), of "
+              "three "
+              "components (n, 3, 3) with du_c/dx_d at [:, c, d] [u/length]. Exact in the cell that "
+              "holds the point; of Q1 only.")
+          .def_property_readonly(
+              "cost",
+              [](const SolvedInSpace &one)
+              {
+                const base::Cost &cost = one.solution.cost;
+                return py::dict("setup_seconds"_a = cost.setup_seconds,
+                                "solve_seconds"_a = cost.solve_seconds,
+                                "peak_bytes"_a = cost.peak_bytes, "n_unknowns"_a = cost.n_unknowns,
+                                "n_bonds"_a = cost.n_bonds, "n_iterations"_a = cost.n_iterations);
+              },
+              "setup_seconds, solve_seconds [CPU s], peak_bytes, n_unknowns, n_bonds, "
+              "n_iterations.");
+    }
   } // namespace
 
   void add_space(py::module_ &module)
@@ -278,37 +354,7 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
             "solution"_a = py::none(), "lame"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
         .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
-    py::class_<SolvedInSpace>(module, "SpaceSolution",
-                              "What space.solve() returns. Of three components all values have a "
-                              "last axis of length 3.")
-        .def_readonly("method", &SolvedInSpace::method)
-        .def_property_readonly(
-            "nodes", [](const SolvedInSpace &one) { return to_array(one.solution.nodes); },
-            "The method's own free nodes, shape (n, 3) [length].")
-        .def_property_readonly(
-            "values",
-            [](const SolvedInSpace &one)
-            { return to_components(one.solution.nodal, one.of->n_components); },
-            "u at the nodes, shape (n,).")
-        .def_property_readonly(
-            "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
-            "Centres of the domain's cells, x fastest, shape (n_cells, 3) [length].")
-        .def_property_readonly(
-            "averages",
-            [](const SolvedInSpace &one)
-            { return to_components(one.solution.averages, one.of->n_components); },
-            "u averaged over the cells, shape (n_cells,).")
-        .def_property_readonly(
-            "cost",
-            [](const SolvedInSpace &one)
-            {
-              const base::Cost &cost = one.solution.cost;
-              return py::dict("setup_seconds"_a = cost.setup_seconds,
-                              "solve_seconds"_a = cost.solve_seconds,
-                              "peak_bytes"_a = cost.peak_bytes, "n_unknowns"_a = cost.n_unknowns,
-                              "n_bonds"_a = cost.n_bonds, "n_iterations"_a = cost.n_iterations);
-            },
-            "setup_seconds, solve_seconds [CPU s], peak_bytes, n_unknowns, n_bonds, n_iterations.");
+    add_solution(module);
     module.def(
         "solve_in_space",
         [](std::shared_ptr<ProblemInSpace> problem, const std::string &method)

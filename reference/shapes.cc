@@ -44,6 +44,11 @@ namespace plumbline::reference
     return element_->shape_value(deal_index_[a], dealii::Point<1>(x));
   }
 
+  double AxisShapes::derivative(unsigned int a, double x) const
+  {
+    return element_->shape_grad(deal_index_[a], dealii::Point<1>(x))[0];
+  }
+
   AxisShapes::Owner AxisShapes::owner(unsigned int a) const
   {
     if (is_continuous_ && a == degree_)

@@ -27,6 +27,7 @@ namespace plumbline::reference
 
     /// Local shape function a at x in [0, 1].
     double value(unsigned int a, double x) const;
+    double derivative(unsigned int a, double x) const;
 
     /// Support point of local shape function a, in [0, 1].
     double support_point(unsigned int a) const { return support_points_[a]; }

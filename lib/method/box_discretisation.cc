@@ -157,6 +157,42 @@ namespace plumbline::method
       /// @throws NumericalError  a point outside Ω
       double operator()(const Point &x, unsigned int component) const
       {
+        const auto cell = cell_of(x);
+        double sum = 0;
+        for_each_corner(
+            [&](const std::array<int, 3> &corner)
+            {
+              double weight = 1;
+              for (unsigned int d = 0; d < 3 && n_along_ == 2; ++d)
+                weight *= factor(x, cell, corner, d);
+              sum += weight * values_[at(component, cell, corner)];
+            });
+        return sum;
+      }
+
+      /// Of a trilinear function.
+      /// @throws NumericalError  a point outside Ω
+      dealii::Tensor<1, 3> gradient(const Point &x, unsigned int component) const
+      {
+        const auto cell = cell_of(x);
+        dealii::Tensor<1, 3> sum;
+        for_each_corner(
+            [&](const std::array<int, 3> &corner)
+            {
+              const double u = values_[at(component, cell, corner)] / lattice_.h();
+              for (unsigned int d = 0; d < 3; ++d)
+              {
+                const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
+                sum[d] += (corner[d] == 0 ? -u : u) * factor(x, cell, corner, a) *
+                          factor(x, cell, corner, b);
+              }
+            });
+        return sum;
+      }
+
+    private:
+      std::array<int, 3> cell_of(const Point &x) const
+      {
         const auto cell = lattice_.cell_at(x);
         if (!cell)
         {
@@ -164,22 +200,17 @@ namespace plumbline::method
           message << "(" << x << ") is outside the domain; take points in Domain/boxes";
           throw NumericalError(message.str());
         }
-        double sum = 0;
-        for_each_corner(
-            [&](const std::array<int, 3> &corner)
-            {
-              double weight = 1;
-              for (unsigned int d = 0; d < 3 && n_along_ == 2; ++d)
-              {
-                const double s = (x[d] - lattice_.coordinate(d, (*cell)[d])) / lattice_.h();
-                weight *= corner[d] == 0 ? 1 - s : s;
-              }
-              sum += weight * values_[at(component, *cell, corner)];
-            });
-        return sum;
+        return *cell;
       }
 
-    private:
+      /// A corner's linear function along an axis.
+      double factor(const Point &x, const std::array<int, 3> &cell,
+                    const std::array<int, 3> &corner, unsigned int d) const
+      {
+        const double s = (x[d] - lattice_.coordinate(d, cell[d])) / lattice_.h();
+        return corner[d] == 0 ? 1 - s : s;
+      }
+
       std::size_t block() const { return static_cast<std::size_t>(n_[0]) * n_[1] * n_[2]; }
 
       template <class Visit>
@@ -353,6 +384,9 @@ namespace plumbline::method
       field.averages = on_cells->averages();
       field.value = [on_cells](const Point &x, unsigned int component)
       { return (*on_cells)(x, component); };
+      if (node_place_ == NodePlace::vertices)
+        field.gradient = [on_cells](const Point &x, unsigned int component)
+        { return on_cells->gradient(x, component); };
       return field;
     };
     return result;

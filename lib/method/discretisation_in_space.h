@@ -26,6 +26,9 @@ namespace plumbline::method
     /// u in the closed domain Ω: trilinear for nodes at vertices; for nodes at centres the value of
     /// a cell that contains x, of either cell on a face between two. Thread-safe.
     std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
+    /// For nodes at vertices: exact in a cell that contains x; else empty.
+    std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &x, unsigned int component)>
+        gradient = {};
   };
 
   /// The discretisation of a problem in space; the counterpart of Discretisation.

@@ -15,6 +15,10 @@ namespace plumbline::method
     std::vector<double> nodal;           ///< values there, shape (n_nodes, n_components)
     std::vector<double> averages; ///< over the comparison cells, shape (n_cells, n_components)
     std::function<double(const dealii::Point<2> &, unsigned int component)> value; ///< in Ω
+    /// Of functions in continuous spaces, in Ω: exact in the cell whose values `value` takes; empty
+    /// for other methods.
+    std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &, unsigned int component)> gradient =
+        {};
     std::function<void(const std::string &file)> write_vtu;
   };
 } // namespace plumbline::method

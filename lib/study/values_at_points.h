@@ -14,6 +14,7 @@ namespace plumbline::study
     std::vector<double> values;   ///< shape (n_points, n_components)
     std::vector<double> exact;    ///< of the same shape; empty: not known
     std::vector<double> estimate; ///< of the error, shape (n_points); empty: none
+    std::vector<double> gradient; ///< shape (n_points, n_components, dim); empty: none
   };
 
   /// @param estimate  as above
@@ -28,6 +29,11 @@ namespace plumbline::study
       for (unsigned int c = 0; c < problem.n_components; ++c)
       {
         result.values.push_back(solution.value(x, c));
+        if (solution.gradient)
+        {
+          const dealii::Tensor<1, dim> gradient = solution.gradient(x, c);
+          result.gradient.insert(result.gradient.end(), gradient.begin_raw(), gradient.end_raw());
+        }
         if (problem.solution)
           result.exact.push_back(problem.solution->value(x, c));
       }

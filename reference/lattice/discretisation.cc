@@ -249,6 +249,9 @@ namespace plumbline::reference
                       field->local(c, i, j, local(s % n_axis), local(s / n_axis)));
         result.averages = field->averages(cells_);
         result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+        if (shapes_.is_continuous())
+          result.gradient = [field](const Point<2> &x, unsigned int c)
+          { return field->gradient(x, c); };
         result.write_vtu = [field](const std::string &file) { reference::write_vtu(*field, file); };
         return result;
       }

@@ -25,16 +25,21 @@ namespace plumbline::reference
     return values_[(block * height + j + y.shift + 1) * width + i + x.shift + 1];
   }
 
-  double LatticeField::value(const geometry::Point<2> &x, unsigned int component) const
+  LatticeField::Place LatticeField::place(const geometry::Point<2> &x) const
   {
-    std::array<int, 2> cell{};
-    std::array<double, 2> inner{};
+    Place result;
     for (unsigned int d = 0; d < 2; ++d)
     {
       const double s = (x[d] - lattice_.origin()[d]) / lattice_.h();
-      cell[d] = std::clamp(static_cast<int>(std::floor(s)), 0, lattice_.n_cells()[d] - 1);
-      inner[d] = s - cell[d];
+      result.cell[d] = std::clamp(static_cast<int>(std::floor(s)), 0, lattice_.n_cells()[d] - 1);
+      result.inner[d] = s - result.cell[d];
     }
+    return result;
+  }
+
+  double LatticeField::value(const geometry::Point<2> &x, unsigned int component) const
+  {
+    const auto [cell, inner] = place(x);
     double sum = 0;
     for (unsigned int a2 = 0; a2 < shapes_.n_local(); ++a2)
     {
@@ -43,6 +48,21 @@ namespace plumbline::reference
         row += shapes_.value(a1, inner[0]) * local(component, cell[0], cell[1], a1, a2);
       sum += row * shapes_.value(a2, inner[1]);
     }
+    return sum;
+  }
+
+  dealii::Tensor<1, 2> LatticeField::gradient(const geometry::Point<2> &x,
+                                              unsigned int component) const
+  {
+    const auto [cell, inner] = place(x);
+    dealii::Tensor<1, 2> sum;
+    for (unsigned int a2 = 0; a2 < shapes_.n_local(); ++a2)
+      for (unsigned int a1 = 0; a1 < shapes_.n_local(); ++a1)
+      {
+        const double u = local(component, cell[0], cell[1], a1, a2) / lattice_.h();
+        sum[0] += u * shapes_.derivative(a1, inner[0]) * shapes_.value(a2, inner[1]);
+        sum[1] += u * shapes_.value(a1, inner[0]) * shapes_.derivative(a2, inner[1]);
+      }
     return sum;
   }
 

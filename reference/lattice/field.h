@@ -3,6 +3,7 @@
 #include "geometry/lattice.h"
 #include "reference/shapes.h"
 
+#include <array>
 #include <vector>
 
 namespace plumbline::reference
@@ -25,10 +26,21 @@ namespace plumbline::reference
 
     double value(const geometry::Point<2> &x, unsigned int component) const;
 
+    /// Where cells meet, on the one that value() takes.
+    dealii::Tensor<1, 2> gradient(const geometry::Point<2> &x, unsigned int component) const;
+
     /// Averages over squares of side h around the given nodes (cell centres or vertices), exact.
     std::vector<double> averages(const geometry::NodeSet &cells) const;
 
   private:
+    /// A cell that contains a point, and where the point is in it, in cells.
+    struct Place
+    {
+      std::array<int, 2> cell{};
+      std::array<double, 2> inner{};
+    };
+    Place place(const geometry::Point<2> &x) const;
+
     geometry::Lattice lattice_;
     AxisShapes shapes_;
     unsigned int n_components_;

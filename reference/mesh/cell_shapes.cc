@@ -117,6 +117,44 @@ namespace plumbline::reference
       *phi++ = axis[0][index[0]] * axis[1][index[1]];
   }
 
+  void CellShapes::gradients(const Point<2> &unit, dealii::Tensor<1, 2> *gradient) const
+  {
+    constexpr unsigned int n = 5, n_axes = 3;
+    const bool is_triangle = n_vertices_ == 3;
+    // factors of the functions and their derivatives, by barycentric or by axis coordinates
+    double factor[n_axes][n], slope[n_axes][n];
+    const double at[n_axes] = {is_triangle ? 1 - unit[0] - unit[1] : unit[0],
+                               is_triangle ? unit[0] : unit[1], is_triangle ? unit[1] : 0};
+    for (unsigned int v = 0; v < n_axes; ++v)
+      for (unsigned int i = 0; i <= degree_; ++i)
+      {
+        factor[v][i] = 1;
+        slope[v][i] = 0;
+        const unsigned int n_zeros = is_triangle ? i : v < 2 ? degree_ + 1 : 0;
+        for (unsigned int s = 0; s < n_zeros; ++s)
+        {
+          if (!is_triangle && s == i)
+            continue;
+          const double zero = is_triangle ? static_cast<double>(s) / degree_ : nodes_[s],
+                       node = is_triangle ? static_cast<double>(i) / degree_ : nodes_[i];
+          slope[v][i] = (slope[v][i] * (at[v] - zero) + factor[v][i]) / (node - zero);
+          factor[v][i] *= (at[v] - zero) / (node - zero);
+        }
+      }
+    for (const Index &index : index_)
+    {
+      double by[n_axes];
+      for (unsigned int v = 0; v < n_axes; ++v)
+      {
+        const unsigned int a = (v + 1) % n_axes, b = (v + 2) % n_axes;
+        by[v] = slope[v][index[v]] * factor[a][index[a]] * factor[b][index[b]];
+      }
+      (*gradient)[0] = is_triangle ? by[1] - by[0] : by[0];
+      (*gradient)[1] = is_triangle ? by[2] - by[0] : by[1];
+      ++gradient;
+    }
+  }
+
   CellMap::CellMap(const geometry::Polygon &cell) : origin_(cell[0])
   {
     for (unsigned int d = 0; d < 2; ++d)
@@ -150,6 +188,22 @@ namespace plumbline::reference
   {
     return cross(first_, second_) + unit[0] * cross(first_, bilinear_) +
            unit[1] * cross(bilinear_, second_);
+  }
+
+  dealii::Tensor<1, 2> CellMap::gradient(const Point<2> &unit,
+                                         const dealii::Tensor<1, 2> &of_unit) const
+  {
+    std::array<double, 2> ds{}, dt{};
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      ds[d] = first_[d] + unit[1] * bilinear_[d];
+      dt[d] = second_[d] + unit[0] * bilinear_[d];
+    }
+    dealii::Tensor<1, 2> result;
+    const double det = cross(ds, dt);
+    result[0] = (dt[1] * of_unit[0] - ds[1] * of_unit[1]) / det;
+    result[1] = (ds[0] * of_unit[1] - dt[0] * of_unit[0]) / det;
+    return result;
   }
 
   Point<2> CellMap::unit_by_newton(const Point<2> &x, Point<2> unit) const

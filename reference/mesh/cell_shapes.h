@@ -31,6 +31,9 @@ namespace plumbline::reference
     /// All shape functions at a point of the unit cell (or beyond it). @param phi  shape (size())
     void values(const Point<2> &unit, double *phi) const;
 
+    /// Their derivatives by the coordinates of the unit cell. @param gradient  shape (size())
+    void gradients(const Point<2> &unit, dealii::Tensor<1, 2> *gradient) const;
+
   private:
     unsigned int n_vertices_, degree_;
     std::vector<double> nodes_;                      ///< on an axis, shape (degree + 1)
@@ -58,6 +61,9 @@ namespace plumbline::reference
                             inverse_[2] * dx + inverse_[3] * dy);
       return is_affine() ? affine : unit_by_newton(x, affine);
     }
+
+    /// A gradient by x, from that by coordinates of the unit cell.
+    dealii::Tensor<1, 2> gradient(const Point<2> &unit, const dealii::Tensor<1, 2> &of_unit) const;
 
     /// J^{-1} at the origin, row-major; of an affine map, everywhere.
     const std::array<double, 4> &inverse() const { return inverse_; }

@@ -369,6 +369,9 @@ namespace plumbline::reference
     result.nodal.assign(field->values.begin(), field->values.begin() + n_nodal);
     result.averages = field->averages(cells);
     result.value = [field](const Point<2> &x, unsigned int c) { return field->value(x, c); };
+    if (field->space->is_continuous() && field->space->shapes().degree() > 0)
+      result.gradient = [field](const Point<2> &x, unsigned int c)
+      { return field->gradient(x, c); };
     result.write_vtu = [field](const std::string &file) { write_vtu(*field, file); };
     return result;
   }

@@ -28,6 +28,16 @@ namespace plumbline::reference
     return on_cell(*this, cell, phi, component);
   }
 
+  dealii::Tensor<1, 2> MeshField::gradient(const Point<2> &x, unsigned int component) const
+  {
+    const std::size_t cell = cells->cell_of(cells->locator().at(x));
+    dealii::Tensor<1, 2> of_shapes[CellShapes::most], sum;
+    space->gradients(cell, space->map(cell).unit(x), of_shapes);
+    for (unsigned int a = 0; a < space->shapes().size(); ++a)
+      sum += values[space->dofs(cell)[a] * n_components + component] * of_shapes[a];
+    return sum;
+  }
+
   std::vector<double> MeshField::averages(const geometry::NodeCells<2> &nodes) const
   {
     const CellShapes &shapes = space->shapes();

@@ -20,6 +20,9 @@ namespace plumbline::reference
     /// @throws InputError  x outside
     double value(const Point<2> &x, unsigned int component) const;
 
+    /// On the cell that value() takes.
+    dealii::Tensor<1, 2> gradient(const Point<2> &x, unsigned int component) const;
+
     /// Averages over the cells of the free nodes, shape (n_free, n_components): the pieces that the
     /// mesh's cells cut out of them are integrated exactly (on cells with a bilinear map, to the
     /// degree of the rule).

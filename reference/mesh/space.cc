@@ -153,4 +153,20 @@ namespace plumbline::reference
         phi[a] += own[a * n + b] * before[b];
     }
   }
+
+  void MeshSpace::gradients(std::size_t cell, const Point<2> &unit,
+                            dealii::Tensor<1, 2> *gradient) const
+  {
+    const unsigned int n = shapes_.size();
+    std::vector<dealii::Tensor<1, 2>> of_unit(n);
+    shapes_.gradients(unit, of_unit.data());
+    const std::vector<double> &own = own_functions(cell);
+    for (unsigned int a = 0; a < n; ++a)
+    {
+      dealii::Tensor<1, 2> sum = own.empty() ? of_unit[a] : dealii::Tensor<1, 2>();
+      for (unsigned int b = 0; b < n && !own.empty(); ++b)
+        sum += own[a * n + b] * of_unit[b];
+      gradient[a] = maps_[cell].gradient(unit, sum);
+    }
+  }
 } // namespace plumbline::reference

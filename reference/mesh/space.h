@@ -37,6 +37,9 @@ namespace plumbline::reference
     /// polynomials that are 1 at one of its nodes and 0 at the others. @param phi  shape (n)
     void values(std::size_t cell, const Point<2> &unit, double *phi) const;
 
+    /// Their gradients by x [1/length]. @param gradient  shape (n)
+    void gradients(std::size_t cell, const Point<2> &unit, dealii::Tensor<1, 2> *gradient) const;
+
     /// Those of a cell as sums of those of `shapes`, shape (n, n); empty: they are the same.
     const std::vector<double> &own_functions(std::size_t cell) const
     {

@@ -51,7 +51,7 @@ TEST(Points, have_values_errors_and_changes_in_full_precision)
   {
     const auto coarse = table(folder / "points" / ("u_m___3_" + method + "_level1.csv")),
                fine = table(folder / "points" / ("u_m___3_" + method + "_level2.csv"));
-    const std::size_t n = method == "Q2" ? 6 : 5; // x, y, u, exact, error, estimate
+    const std::size_t n = method == "Q2" ? 8 : 5; // x, y, u, exact, error, estimate, u_x, u_y
     ASSERT_EQ(coarse.size(), n) << method;
     ASSERT_EQ(fine.size(), n + 1) << method;
     ASSERT_EQ(fine.at("u").size(), 3u);
@@ -66,6 +66,8 @@ TEST(Points, have_values_errors_and_changes_in_full_precision)
       if (method == "Q2")
       {
         EXPECT_LE(std::abs(fine.at("error")[k]), fine.at("estimate")[k]);
+        EXPECT_NEAR(fine.at("u_x")[k], 2 * x, .02);
+        EXPECT_NEAR(fine.at("u_y")[k], 2 * y, .02);
       }
     }
   }
@@ -110,7 +112,8 @@ TEST(Points, in_space_have_values_and_estimates)
     for (const std::string method : {"FA", "Q1"})
     {
       const auto fine = table(folder / "points" / ("u_m___3_" + method + "_level2.csv"));
-      ASSERT_EQ(fine.size(), method == "Q1" ? 8u : 7u); // x, y, z, u, exact, error, change
+      // x, y, z, u, exact, error, change; estimate, u_x, u_y, u_z
+      ASSERT_EQ(fine.size(), method == "Q1" ? 11u : 7u);
       ASSERT_EQ(fine.at("u").size(), 4u);
       EXPECT_EQ(fine.at("z"), (std::vector<double>{.2, .25, .1, .5}));
       for (unsigned int k = 0; k < 4; ++k)
@@ -126,6 +129,14 @@ TEST(Points, in_space_have_values_and_estimates)
         {
           EXPECT_LE(error, fine.at("estimate")[k] + 1e-11) << k;
           EXPECT_LT(fine.at("estimate")[k], .05);
+          const bool is_trilinear = solution == of_trilinear;
+          const double tolerance = is_trilinear ? 1e-10 : .3;
+          EXPECT_NEAR(fine.at("u_x")[k], is_trilinear ? 1 + y * z : 3 * std::cos(3 * x) * y * y,
+                      tolerance);
+          EXPECT_NEAR(fine.at("u_y")[k], is_trilinear ? 2 + x * z : 2 * std::sin(3 * x) * y,
+                      tolerance);
+          EXPECT_NEAR(fine.at("u_z")[k], is_trilinear ? x * y - 1 : -2 * std::sin(2 * z),
+                      tolerance);
         }
       }
     }

@@ -184,3 +184,76 @@ def test_methods_and_cost(square):
     u = plumbline.solve(square_problem(square, load=1), "FA")
     assert u.cost["n_unknowns"] == 256 and u.cost["setup_seconds"] >= 0
     assert u.diagnostics["n_neighbours"] == 28
+
+
+@pytest.mark.parametrize("method, cells, order", [("Q1", "lattice", 1), ("Q2", "lattice", 2),
+                                                  ("Q3", "lattice", 3), ("Q1", "squares", 1),
+                                                  ("Q2", "squares", 2), ("P1", "triangles", 1),
+                                                  ("P2", "triangles", 2), ("P3", "triangles", 3)])
+def test_gradients_converge_and_are_those_of_the_values(square, method, cells, order):
+    # the solution is smooth, so that derivatives in cells have the error h^p
+    points = np.random.default_rng(3).uniform(.02, .98, (60, 2))
+    points = points[np.all(np.abs(points * 16 - np.round(points * 16)) > .01, axis=1)]
+    x, y = points.T
+    exact = np.stack([3 * np.cos(3 * x) * np.cos(2 * y), -2 * np.sin(3 * x) * np.sin(2 * y)], -1)
+    kernel = plumbline.Kernel("linear-decay", horizon=3 / 8)
+    errors = []
+    for h in (1 / 8, 1 / 16):
+        u = plumbline.solve(plumbline.Problem(kernel, boxes=square, h=h, cells=cells,
+                                              solution="sin(3*x)*cos(2*y)"), method)
+        found = u.gradient(points)
+        assert found.shape == points.shape
+        step = 1e-6
+        for d in range(2):
+            move = step * np.eye(2)[d]
+            inside = (u(points + move) - u(points - move)) / (2 * step)
+            on_one_cell = np.abs(found[:, d] - inside) < 1e-7
+            assert np.mean(on_one_cell) > .9  # others are near a side of a triangle
+        errors.append(np.sqrt(np.mean((found - exact)**2)))
+    assert errors[1] < errors[0] * .5**order * 1.5
+
+
+def test_gradients_of_vectors_and_of_moved_meshes(square):
+    n, tensor = 8, plumbline.Kernel("bond-tensor", horizon=3 / 8, bulk_modulus=2)
+    points = np.array([[.31, .72], [.9, .1], [.5, .5]])
+    expected = np.tile([[1, 2], [3, -1]], (3, 1, 1))
+    u = plumbline.solve(plumbline.Problem(tensor, boxes=square, h=1 / n, solution="x + 2*y, 3*x - y",
+                                          load="0, 0"), "Q2")
+    assert u.gradient(points) == pytest.approx(expected, abs=1e-9)
+    # cells with a bilinear map
+    k = np.arange(-n // 2, n + n // 2 + 1)
+    vertices = np.stack(np.meshgrid(k, k), -1).reshape(-1, 2) / n
+    inner = np.all((vertices > .01) & (vertices < .99), axis=1)
+    vertices[inner] += np.random.default_rng(2).uniform(-.02, .02, vertices[inner].shape)
+    wide = len(k)
+    cells = np.array([(a + wide * b, a + 1 + wide * b, a + 1 + wide * (b + 1), a + wide * (b + 1))
+                      for b in range(wide - 1) for a in range(wide - 1)])
+    middle = vertices[cells].mean(axis=1)
+    inside = np.all((middle > 0) & (middle < 1), axis=1)
+    scalar = plumbline.Kernel("linear-decay", horizon=3 / 8)
+    problem = plumbline.Problem(scalar, mesh=(vertices, cells, inside), solution="x + 2*y", load=0)
+    u = plumbline.solve(problem, "Q1")
+    assert u.gradient(points) == pytest.approx(np.tile([1, 2], (3, 1)), abs=1e-3)
+
+
+def test_gradients_are_refused_where_solutions_jump(square):
+    problem = square_problem(square, solution="x*y")
+    for method in ("FA", "DGQ1"):
+        with pytest.raises(plumbline.InputError, match="has no gradient"):
+            plumbline.solve(problem, method).gradient([[.5, .5]])
+    with pytest.raises(plumbline.InputError, match=r"points\[0\]"):
+        plumbline.solve(problem, "Q1").gradient([[2, .5]])
+
+
+def test_errors_are_estimated_at_points(square):
+    points = np.array([[.31, .72], [.9, .1], [.5, .5]])
+    problem = square_problem(square, solution="sin(3*x)*cos(2*y)")
+    u = plumbline.reference(problem, "Q1", points=points)
+    error = np.abs(u(points) - np.sin(3 * points[:, 0]) * np.cos(2 * points[:, 1]))
+    estimate = u.estimate["at_points"]
+    assert estimate.shape == (3,) and np.all(error <= estimate) and estimate.max() < .01
+    assert plumbline.reference(problem, "Q1").estimate["at_points"] is None
+    with pytest.raises(plumbline.InputError, match="estimate = True"):
+        plumbline.reference(problem, "Q1", False, points)
+    with pytest.raises(plumbline.InputError, match=r"points\[1\].*outside"):
+        plumbline.reference(problem, "Q1", points=[[.5, .5], [3, 3]])

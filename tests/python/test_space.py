@@ -185,3 +185,25 @@ def test_problems_on_scattered_nodes_are_solved_exactly_where_moments_are_exact(
     with pytest.raises(ValueError, match="nodes end at x"):
         space.Problem(kernel, box=((0, 0, 0), (1, 1, 1)), h=h, nodes=nodes[nodes[:, 0] > -.1],
                       solution="x, y, z")
+
+
+def test_solutions_have_values_and_gradients_at_points():
+    kernel = space.Kernel("linear-decay", 3 / 8, diffusion=.5)
+    problem = space.Problem(kernel, box=((0, 0, 0), (1, 1, 1)), h=1 / 8,
+                            solution="x + 2*y - z + x*y*z")
+    points = np.array([[.31, .72, .2], [.5, .5, .5], [1, 1, 0]])
+    x, y, z = points.T
+    solved = space.solve(problem, "Q1")
+    assert solved(points) == pytest.approx(x + 2 * y - z + x * y * z, abs=1e-10)
+    assert solved.gradient(points) == pytest.approx(
+        np.stack([1 + y * z, 2 + x * z, x * y - 1], axis=1), abs=1e-9)
+    rule = space.solve(problem, "FA")
+    assert rule(rule.nodes) == pytest.approx(rule.values)
+    with pytest.raises(ValueError, match="has no gradient"):
+        rule.gradient(points)
+    with pytest.raises(ValueError, match="points.0. = .*outside"):
+        solved([[2, 0, 0]])
+    tensor = space.Problem(space.Kernel("bond-tensor", 3 / 8, bulk_modulus=1), h=1 / 8,
+                           box=((0, 0, 0), (1, 1, 1)), solution="x - z, 2*y, x + 3*z")
+    assert space.solve(tensor, "Q1").gradient(points) == pytest.approx(
+        np.tile([[1, 0, -1], [0, 2, 0], [1, 0, 3]], (3, 1, 1)), abs=1e-9)
