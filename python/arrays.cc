@@ -98,7 +98,7 @@ namespace plumbline::python
   {
     if (!gradient)
       throw InputError("method '" + method +
-                       "' has no gradient: its solutions are not continuous; solve by a continuous "
+                       "' has no gradient: its solutions are discontinuous; use a continuous "
                        "Galerkin method, such as Q2 or P2");
     std::vector<double> values;
     {

@@ -94,7 +94,7 @@ namespace plumbline::python
         throw InputError("h = " + std::to_string(*h) + "; give a length above 0, or None");
       if (h && !given.at_h)
         throw InputError("h = " + std::to_string(*h) +
-                         ": this problem is known on its own mesh alone; omit h");
+                         ": this problem is defined on its own mesh only; omit h");
       method::LinearEquations<2> made;
       {
         const py::gil_scoped_release others;
@@ -138,7 +138,7 @@ namespace plumbline::python
         throw InputError("h = " + std::to_string(*h) + "; give a length above 0, or None");
       if (h && given.cells)
         throw InputError("h = " + std::to_string(*h) +
-                         ": this problem is known on its own scattered nodes alone; omit h");
+                         ": this problem is defined on its own scattered nodes only; omit h");
       method::LinearEquations<3> made;
       {
         const py::gil_scoped_release others;

@@ -379,7 +379,7 @@ namespace plumbline::python
               "gradient", gradients_at, "points"_a,
               "Gradient of u at points in the domain, shape (n, 2) [length]: shape (n, 2), of two "
               "components (n, 2, 2) with du_c/dx_d at [:, c, d] [u/length]. Exact in the cell that "
-              "holds the point; of continuous Galerkin spaces only.")
+              "holds the point; for continuous Galerkin spaces only.")
           .def_property_readonly(
               "cost", [](const Solved &one) { return to_dict(one.solution.cost); },
               "setup_seconds, solve_seconds [CPU s], peak_bytes, n_unknowns, n_bonds, "
@@ -471,7 +471,7 @@ load, constraint, solution, coefficient
            const py::object &points)
         { return reference(std::move(problem), method, estimate, points); },
         "problem"_a, "method"_a = py::none(), "estimate"_a = true, "points"_a = py::none(),
-        "A Galerkin solution (default: Q2, of triangles P2) with an estimate of its error, "
+        "A Galerkin solution (default: Q2, on triangles P2) with an estimate of its error, "
         "which takes about 20 times as long as the solution alone. At points in the domain, shape "
         "(n, 2) [length], the error is estimated as well: estimate[\"at_points\"].");
   }

@@ -261,7 +261,7 @@ namespace plumbline::python
       if (can.count(need) == 0)
         missing += (missing.empty() ? "" : ", ") + base::word(need);
     const std::string why =
-        missing.empty() ? method.why_not(problem) : "it is not made for: " + missing;
+        missing.empty() ? method.why_not(problem) : "it does not support: " + missing;
     if (!why.empty())
       throw InputError("method '" + method.name() + "' cannot solve this problem: " + why +
                        "; choose another one (plumbline.methods())");
@@ -272,7 +272,7 @@ namespace plumbline::python
     auto method = to_method(py::str(name));
     if (method->can().count(method::Capability::space) == 0)
       throw InputError("method '" + name +
-                       "' is for the plane; choose a meshfree rule, Q1 or DGQ0");
+                       "' is for two dimensions only; choose a meshfree rule, Q1 or DGQ0");
     return method;
   }
 

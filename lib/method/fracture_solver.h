@@ -15,7 +15,7 @@
 namespace plumbline::method
 {
   /// What a body whose bonds break is made of. In space lines of x and y stand for the surfaces
-  /// that they sweep along z through the body, and surface terms are not known.
+  /// that they sweep along z through the body, and surface terms are not available.
   template <int dim>
   struct BreakingSolid
   {
@@ -62,7 +62,7 @@ namespace plumbline::method
                                             geometry::Backend backend, problem::Stretch stretch,
                                             problem::GrowthSolver solver) const = 0;
 
-    /// Energy of all bonds across an endless straight line, or a plane in space, each at its limit
+    /// Energy of all bonds across an infinite straight line, or a plane in space, each at its limit
     /// of G = 1, per length or area.
     virtual double lattice_toughness(const physics::Kernel<2> &influence, double h,
                                      geometry::Backend backend) const = 0;

@@ -23,9 +23,9 @@ namespace plumbline::report
           {{"advance", "of the crack tip from the notch, at the final time [length]"},
            {"speed", "of the tip [length/time]; in SI units m/s"},
            {"speed / c_R",
-            "relative to Rayleigh waves, of a line fitted from 1/5 to 4/5 of the advance"},
+            "relative to the Rayleigh wave speed, by a line fitted from 1/5 to 4/5 of the advance"},
            {"fastest / c_R", "maximum over any tenth of the time for which the tip moves"},
-           {"c_R", "Rayleigh wave speed, which no crack exceeds [length/time]"},
+           {"c_R", "Rayleigh wave speed, the theoretical limit of a mode-I crack [length/time]"},
            {"c_T", "shear wave speed [length/time]"},
            {"strained W H / G_c,h",
             "energy of the strained strip relative to the toughness of the lattice"},
@@ -35,8 +35,8 @@ namespace plumbline::report
            {"beta", "of the bond potential [1/length]"},
            {"softening strain", "of a bond as long as the horizon"},
            {"G_c,h / G_c", "toughness of the lattice relative to G_c"},
-           {"soft energy / G_c,h",
-            "energy that softened bonds gain per advance, relative to the lattice's toughness"},
+           {"soft energy / G_c,h", "energy that softened bonds gain per unit advance, relative to "
+                                   "the toughness of the lattice"},
            {"energy drift", "maximum change of kinetic + bonds + dissipated energy, relative to "
                             "the initial energy"},
            {"asymmetry", "maximum difference of u from its mirror image, at the final time"},
@@ -177,8 +177,8 @@ namespace plumbline::report
           "moments", title,
           damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
           "The fraction of each node's bonds that is softened or cut, on the undeformed body at "
-          "six times; the grips are above and below. With displacements, as VTU: "
-          "Time/frames."};
+          "six times; the grips are above and below. Time/frames also writes the displacements, as "
+          "VTU."};
     }
   } // namespace
 

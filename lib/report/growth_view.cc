@@ -27,6 +27,13 @@ namespace plumbline::report
                                       : static_cast<std::size_t>(column(events, "bonds").front());
     }
 
+    /// Of energies, and of what is conjugate to the load factor: in the plane for each unit of
+    /// thickness.
+    std::string force_unit(const Record &record)
+    {
+      return study::is_in_space(record) ? "force length" : "force";
+    }
+
     std::vector<std::pair<std::string, std::string>> meanings(const Record &record)
     {
       const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid),
@@ -39,7 +46,8 @@ namespace plumbline::report
           {"first advance", "load factor at which the crack starts to grow (event " +
                                 std::to_string(record.count("first advance event")) + ")"},
           {"peak load", "load factor of the peak reaction"},
-          {"peak reaction", "of the grips, work-conjugate to the load factor [force]"},
+          {"peak reaction",
+           "of the grips, work-conjugate to the load factor [" + force_unit(record) + "]"},
           {"advance", is_in_space
                           ? "growth of the crack front, mean over the layers of nodes along z "
                             "[length]"
@@ -70,10 +78,11 @@ namespace plumbline::report
           {"G_h / G", "energy of all bonds across a straight " +
                           std::string(is_in_space ? "plane" : "line") +
                           " of the lattice at the critical stretch, relative to G"},
-          {"G_peak / G",
-           "energy at which a crack grows in a strip of this lattice; G was divided by it"},
+          {"G_peak / G", "energy release rate at which a crack grows in a strip of this lattice, "
+                         "relative to G; G was divided by this factor"},
           {"unpaired", "broken bonds whose mirror image about the midline is intact"},
-          {"unpaired in z", "the same about the middle of the thickness"},
+          {"unpaired in z",
+           "broken bonds whose mirror image about the mid-plane of the thickness is intact"},
           {"imbalance", study::is_corrected(record)
                             ? "maximum imbalance of the bonds' energy relative to the work; the "
                               "surface terms do not derive from an energy"
@@ -142,7 +151,7 @@ namespace plumbline::report
       const bool is_broken = record.count("events") > 0;
       if (is_broken)
         text = growth_words(record) + "; the peak reaction, " + rounded(record["peak reaction"]) +
-               " [force], is at load " + rounded(record["peak load"]) + ". " +
+               " [" + force_unit(record) + "], is at load " + rounded(record["peak load"]) + ". " +
                std::to_string(record.count("broken bonds")) + " bonds break at " +
                std::to_string(record.count("events")) + " events, from load " +
                rounded(column(record.curves.at("events"), "load").front()) + " on, " +
@@ -196,11 +205,11 @@ namespace plumbline::report
              (is_in_space ? "Silling & Askari 2005" : "Fan et al. 2022, eq. (2.25)") +
              "; exact where λ = μ). On this lattice they store " + rounded(record["G_h / G"]) +
              " G, and a crack needs more than that to pass from one column of nodes to the next" +
-             (record.has("G_peak / G")
-                  ? ": " + rounded(record["G_peak / G"]) +
-                        " G, as a strip shows, by the root of which s0 was lowered (Fracture/"
-                        "criterion = calibrated)."
-                  : ".") +
+             (record.has("G_peak / G") ? ": " + rounded(record["G_peak / G"]) +
+                                             " G, found in a strip; s0 was divided by the square "
+                                             "root of this factor (Fracture/"
+                                             "criterion = calibrated)."
+                                       : ".") +
              phase_words(record) + interface_words(record) +
              (field.empty() ? "" : " With the random field " + field + ".") +
              (seeds.empty() ? "" : " " + seeds + ".");
@@ -215,13 +224,14 @@ namespace plumbline::report
       return table_of(chosen);
     }
 
-    DataChart load_chart(const Curve &events)
+    DataChart load_chart(const Record &record, const Curve &events)
     {
-      DataChart chart = linear_chart(
-          "load", "Reaction over load", "load factor [1]", "reaction [force]",
-          "Solid: the load never decreases, so that each event lowers the reaction at constant "
-          "load. Dashed: the equilibria at which the events would just begin, through which a load "
-          "that follows the crack would pass.");
+      DataChart chart =
+          linear_chart("load", "Reaction versus load", "load factor [1]",
+                       "reaction [" + force_unit(record) + "]",
+                       "Solid: monotonically increasing load; each event lowers the reaction at "
+                       "constant load. Dashed: the equilibria at which each event begins, the path "
+                       "under crack-controlled loading.");
       std::vector<Vertex> path = {{0, 0}}, critical = {{0, 0}};
       chart.data =
           data_of(events, {"event", "load", "reaction before", "reaction", "critical load"});
@@ -244,7 +254,7 @@ namespace plumbline::report
     DataChart energy_chart(const Record &record, const Curve &events)
     {
       DataChart chart = linear_chart(
-          "energies", "Energy balance", "broken bonds [1]", "energy [force]",
+          "energies", "Energy balance", "broken bonds [1]", "energy [" + force_unit(record) + "]",
           "Energy balance: the external work is stored, dissipated in broken bonds, or released in "
           "unstable crack growth. The maximum imbalance relative to the work is " +
               rounded(record["imbalance"]) +
@@ -301,9 +311,9 @@ namespace plumbline::report
     DataChart front_chart(const Curve &front)
     {
       DataChart chart = linear_chart(
-          "front", "The crack front", "z [length]", "way from the notch [length]",
-          "Way of the crack in each layer of nodes along z, after even parts of all broken bonds. "
-          "In a layer it is found as in the plane, from the bonds that lie in it.");
+          "front", "Crack front", "z [length]", "advance from the notch tip [length]",
+          "Advance of the crack in each layer of nodes along z, at equal steps of the number of "
+          "broken bonds. In a layer it is determined as in two dimensions, from the bonds in it.");
       chart.data = table_of(front);
       std::vector<std::vector<Vertex>> lines;
       std::vector<double> n_events;
@@ -327,7 +337,7 @@ namespace plumbline::report
       const Curve &events = record.curves.at("events");
       if (events[0].values.empty())
         return {};
-      std::vector<DataChart> all = {load_chart(events), energy_chart(record, events),
+      std::vector<DataChart> all = {load_chart(record, events), energy_chart(record, events),
                                     tip_chart(events, study::is_in_space(record))};
       if (study::is_in_space(record))
         all.push_back(front_chart(record.curves.at("front")));

@@ -95,13 +95,13 @@ namespace plumbline::report
       std::size_t n = 0;
       for (const auto &[name, s] : set->quantities)
         if (n < most && (has_toughness ? is_toughness(name) : !is_constant(s)))
-          text +=
-              std::string(n++ == 0 ? "" : "; ") + name + " " + rounded(s.mean) +
-              (s.deviation() ? ", deviation " + rounded(*s.deviation()) : "") +
-              (s.standard_error > 0
-                   ? ", standard error " + rounded(s.standard_error) + ", with 95 % confidence " +
-                         rounded(s.mean - s.confidence) + " to " + rounded(s.mean + s.confidence)
-                   : "");
+          text += std::string(n++ == 0 ? "" : "; ") + name + " " + rounded(s.mean) +
+                  (s.deviation() ? ", standard deviation " + rounded(*s.deviation()) : "") +
+                  (s.standard_error > 0
+                       ? ", standard error " + rounded(s.standard_error) +
+                             ", 95 % confidence interval " + rounded(s.mean - s.confidence) +
+                             " to " + rounded(s.mean + s.confidence)
+                       : "");
       const study::SampleCase &of = r.cases.back().of;
       return text.empty() ? ""
                           : "Means by " + of.method + " at h = " + rounded(of.h) + " over " +

@@ -27,7 +27,7 @@ namespace plumbline::scene
     needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
           "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' is quasi-static");
     needs(scene.material.model == &lps(),
-          "Material/model = LPS (with nu = 1/4 in plane strain or space it is bond-based)");
+          "Material/model = LPS (bond-based for nu = 1/4 in plane strain and in three dimensions)");
     needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: the critical stretch is known for that influence function");
     needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");

@@ -197,7 +197,9 @@ namespace plumbline::study
                  "length");
     }
 
-    void set_events(const std::vector<Event> &events, Record &record)
+    /// @param force  unit of what is conjugate to the load factor: in the plane for each unit of
+    /// thickness
+    void set_events(const std::vector<Event> &events, const std::string &force, Record &record)
     {
       // the first of those with the largest reaction before them
       const auto peak = std::max_element(events.begin(), events.end(),
@@ -214,7 +216,7 @@ namespace plumbline::study
       record.set("broken bonds", static_cast<double>(n_broken));
       record.set("events", static_cast<double>(events.size()));
       record.set("peak load", events.empty() ? 0 : peak->load);
-      record.set("peak reaction", events.empty() ? 0 : peak->reaction_before, "force");
+      record.set("peak reaction", events.empty() ? 0 : peak->reaction_before, force);
       record.set("imbalance", imbalance);
       record.set("residual", residual);
     }
@@ -237,11 +239,11 @@ namespace plumbline::study
       record.set("first advance event", static_cast<double>(event));
     }
 
-    void set_end(const Growth &growth, Record &record)
+    void set_end(const Growth &growth, const std::string &force, Record &record)
     {
       record.set("reaction left", growth.reaction_left());
       record.set("last load", growth.last_load);
-      record.set("first stiffness", growth.first_stiffness, "force");
+      record.set("first stiffness", growth.first_stiffness, force);
       record.set("resumed", static_cast<double>(growth.n_resumed));
       record.texts["end"] = base::word(growth.end);
       record.texts["connected"] = growth.is_separated ? "no" : "yes";
@@ -325,7 +327,7 @@ namespace plumbline::study
   {
     const Growth &growth = found.growth;
     const CrackPath &path = found.path;
-    set_events(growth.events, record);
+    set_events(growth.events, "force", record);
     set_beginnings(found, record);
     record.set("advance", path.tips.empty() ? 0 : path.tips.back().distance(found.notch_tip),
                "length");
@@ -336,7 +338,7 @@ namespace plumbline::study
     record.set("width", path.width, "length");
     record.set("apart", static_cast<double>(path.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired));
-    set_end(growth, record);
+    set_end(growth, "force", record);
     add_events(found, record);
     add_path(found, record);
     add_fields(found, record);
@@ -421,7 +423,7 @@ namespace plumbline::study
   Record growth_record(Record record, const FrontFindings &found)
   {
     const Growth &growth = found.growth;
-    set_events(growth.events, record);
+    set_events(growth.events, "force length", record);
     set_beginnings(found, record);
     const std::vector<double> way = growth.events.empty()
                                         ? std::vector<double>(found.front.z.size(), 0)
@@ -443,7 +445,7 @@ namespace plumbline::study
     record.set("apart", static_cast<double>(found.front.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired_in_y));
     record.set("unpaired in z", static_cast<double>(found.n_unpaired_in_z));
-    set_end(growth, record);
+    set_end(growth, "force length", record);
     add_front(found, record);
     add_moments_and_parts(found.moments, found.parts, record);
     record.curves["phases"] = {{"G", "force/length", {}}};
@@ -486,7 +488,8 @@ namespace plumbline::study
     std::vector<std::string> result = {
         "equilibrium at all times: no inertia, rate dependence or heat; the energy released in "
         "unstable growth is lost",
-        "the load never decreases, so that a snap-back is passed at the load at which it begins",
+        "monotonically increasing load: a snap-back appears as a drop of the reaction at constant "
+        "load",
         "bonds break irreversibly, by their tensile stretch alone; crack faces transmit pressure "
         "only through intact bonds",
         std::string(is_in_space ? "one lattice: cracks tend to follow its planes"

@@ -127,14 +127,13 @@ namespace plumbline::study
     std::vector<CrackPath> layers;        ///< of each
     std::vector<std::vector<double>> way; ///< of the tips from the notch's, after each event, shape
                                           ///< (n_events, n_layers) [length]
-    double area = 0;             ///< of all sides that parted, projected onto the plane of x and z
+    double area = 0; ///< of all separated sides, projected onto the x-z plane [length^2]
     std::size_t n_elsewhere = 0; ///< sides apart from the crack
   };
   CrackFront find_front(const method::BreakableBody<3> &model,
                         const std::vector<analysis::Event> &events);
 
-  /// Bonds that broke whose mirror images about the plane where an axis has this value did not, or
-  /// are none.
+  /// Broken bonds whose mirror image about the plane axis = middle is intact or does not exist.
   std::size_t n_unpaired(const method::BreakableBody<3> &model,
                          const std::vector<std::size_t> &broken, unsigned int axis, double middle);
 
@@ -151,14 +150,14 @@ namespace plumbline::study
     std::size_t n_unpaired_in_y = 0, n_unpaired_in_z = 0;
   };
 
-  /// The same as a record, as growth_record but for what is of the plane alone: no K, no phases.
+  /// The same as a record: as growth_record, without what exists in the plane only (K, phases).
   ///
-  /// Scalars: "advance", "advance min" and "advance max" are the mean, the smallest and the largest
-  /// way of the front's layers from the notch [length]; "area" in place of the width [length^2];
-  /// "unpaired" about the middle of y and "unpaired in z" about the middle of the thickness.
-  /// Curves: "events" with "way", "way min" and "way max" of the front; "front" with the way of
-  /// each layer at the moments; "sides" with z. Field "damage" is that of the layer in the middle
-  /// of the thickness, the lower one of two.
+  /// Scalars: "advance", "advance min" and "advance max" are the mean, minimum and maximum
+  /// advance over the front's layers, from the notch tip [length]; "area" in place of the width
+  /// [length^2]; "unpaired" about the middle of y and "unpaired in z" about the middle of the
+  /// thickness. Curves: "events" with "way", "way min" and "way max" of the front; "front" with the
+  /// advance of each layer at the moments; "sides" with z. Field "damage" is that of the layer in
+  /// the middle of the thickness, the lower one of two.
   Record growth_record(Record record, const FrontFindings &found);
 
   /// The forces of a record's body have no energy: its text "surface terms" says so.

@@ -319,7 +319,7 @@ namespace plumbline::meshfree
         return {};
       if (dim == 3)
         throw InputError("Fracture/surface terms = " + base::word(solid.surface_terms) +
-                         " is not known in space; write uncorrected");
+                         " is not available in three dimensions; write uncorrected");
       return
           typename BondNetwork<dim>::Surfaces{solid.surface_terms, {}, solid.notch, materials.lame};
     }

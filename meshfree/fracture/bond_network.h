@@ -84,7 +84,7 @@ namespace plumbline::meshfree
                                      const NeighbourhoodQuadrature<dim> &rule,
                                      const Kernel<dim> &influence, double h, Backend backend);
 
-  /// Energy of all bonds across an endless straight line, or a plane in space, that meets no node,
+  /// Energy of all bonds across an infinite straight line, or a plane in space, that meets no node,
   /// each at its limit s0 of G = 1, on a homogeneous lattice with λ = μ, per length or area: what a
   /// crack along it breaks. Instantiated for dim = 2 and 3.
   /// @param normal  of the line or plane in steps of the lattice, not 0

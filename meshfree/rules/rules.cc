@@ -39,7 +39,8 @@ namespace plumbline::meshfree
   {
     static const std::vector<Rule> table = {
         {"PDDO",
-         "peridynamic differential operator: exact moments of degree 2, any kernel's profile",
+         "peridynamic differential operator: exact second moments for any kernel profile; not "
+         "m-convergent",
          differential_operator<2>, differential_operator<3>},
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},

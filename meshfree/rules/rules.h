@@ -62,7 +62,7 @@ namespace plumbline::meshfree
 
   /// Weights of the peridynamic differential operator (PDDO): coefficients w C of bonds that are
   /// the cell's area times exp(-(2r/δ)²) times a polynomial, with exact moments up to degree 2, odd
-  /// ones too on scattered nodes; they do not depend on the kernel but by its second moments.
+  /// ones too on scattered nodes; they depend on the kernel through its second moments only.
   /// Asymptotically compatible; wrong at a fixed horizon, where the kernel's profile matters.
   /// Kernel at the node. Infeasible, a NumericalError, as above.
   /// Source: Madenci, Barut & Futch 2016, doi:10.1016/j.cma.2016.02.028.
@@ -80,8 +80,7 @@ namespace plumbline::meshfree
   /// All rules; a new one is one source file and one row here.
   const std::vector<Rule> &rules();
 
-  /// Rules that `all` does not take: of another kernel at fixed horizons, or there to show how they
-  /// fail.
+  /// Rules that `all` does not include: not m-convergent (PDDO), or counterexamples.
   const std::vector<Rule> &rules_on_request();
 
   /// The rule of a name, in any case.

@@ -16,7 +16,8 @@ class Matrix:
     first, then what is constrained. Component c of node k is number k * n_components + c. Row k is
     A[k, indices[p]] = data[p] for indptr[k] <= p < indptr[k + 1], columns ascending (CSR).
 
-    Sign: A is positive definite for positive weights. A meshfree rule states the equation at its
+    Sign: that of -Laplace. The matrix of reduced() is positive definite for Galerkin methods, and on
+    lattices for rules with positive weights. A meshfree rule states the equation at its
     nodes, A u = L_h u = -sum C (u_j - u_i) w = load [force/length^dim]; multiplied by `volumes` its
     rows are forces. Rows of a Galerkin method are tested by shape functions [force].
     Constrained nodes have columns and no rows: their values are `constraint`. reduced() moves them

@@ -121,14 +121,14 @@ namespace plumbline::scene
         "overlaps a box (the grips of 'plumbline grow' too), and in mesh cells whose centroid is "
         "in a box. none: the body is unconstrained and has rigid-body modes; 'plumbline stability' "
         "analyses it, 'plumbline run' refuses it. In three dimensions ('plumbline grow') each box "
-        "of x and y extends through the whole thickness along z. [length]");
+        "given in x and y extends through the whole thickness along z. [length]");
     keys.add(
         "cracks", "", lines(),
         [this](const std::string &text) { cracks = to_lines(text, lines()); },
         "Cracks as polylines 'x0, y0 : x1, y1', with more points for bends, separated by ';'. "
         "Bonds across them are broken in meshfree methods, and for bond-based materials in "
         "Galerkin methods as well; Material/model = LPS makes the crack faces traction-free. In "
-        "three dimensions ('plumbline grow') a polyline of x and y extends along z through the "
+        "three dimensions ('plumbline grow') a polyline in x and y extends along z through the "
         "whole body. [length]");
     keys.add("outside", outside,
              "An expression in x, y and delta that is positive beyond free surfaces: nodes of the "
