@@ -75,12 +75,13 @@ namespace plumbline::python
       return made;
     }
 
-    /// Before anything is made at another h: the entries of a matrix with so many nodes.
+    /// Before anything is made at another h: the entries of a matrix with so many nodes, whose rows
+    /// reach so far.
     /// @throws InputError  they do not fit into memory
-    void require_memory_at(double h, double n_cells, double horizon, unsigned int dim,
+    void require_memory_at(double h, double n_cells, double reach, unsigned int dim,
                            unsigned int n_components)
     {
-      const double m = horizon / h, ball = dim == 2 ? M_PI * m * m : 4 * M_PI / 3 * m * m * m;
+      const double m = reach / h, ball = dim == 2 ? M_PI * m * m : 4 * M_PI / 3 * m * m * m;
       base::require_memory(n_cells * ball * std::pow(n_components, 2) *
                                (sizeof(double) + sizeof(unsigned int)),
                            "the matrix at h = " + base::to_text(h, 6), "choose a larger h");
@@ -107,7 +108,8 @@ namespace plumbline::python
                   ? static_cast<double>(lattice->n_cells()[0]) * lattice->n_cells()[1]
                   : static_cast<double>(given.problem.cells()->n_free);
           require_memory_at(*h, n_cells * std::pow(given.problem.h / *h, 2),
-                            given.problem.horizon(), 2, given.problem.n_components);
+                            (given.problem.dilatation ? 2 : 1) * given.problem.horizon(), 2,
+                            given.problem.n_components);
           other = given.at_h(*h);
         }
         const problem::Problem<2> &problem = other ? *other : given.problem;
@@ -147,7 +149,7 @@ namespace plumbline::python
         {
           require_memory_at(*h,
                             static_cast<double>(given.lattice.size()) * std::pow(given.h() / *h, 3),
-                            given.horizon(), 3, given.n_components);
+                            given.reach(), 3, given.n_components);
           other = problem::at_spacing(given, *h);
         }
         const problem::Problem<3> &problem = other ? *other : given;

@@ -54,7 +54,7 @@ namespace plumbline::study
   /// What a crack has broken of a material, a phase or an interface of one toughness.
   struct BrokenPart
   {
-    double toughness = 0; ///< G [force/length^(dim-1)]
+    double toughness = 0; ///< G [force/length]
     std::size_t n_bonds = 0;
     double length = 0; ///< of a straight crack that breaks as many bonds; in space its area
   };
@@ -67,7 +67,7 @@ namespace plumbline::study
                                        const std::vector<std::size_t> &broken);
 
   /// Bonds that a straight crack across y, along a row of nodes, breaks for each column of them: 18
-  /// at m = 3; in space along a plane of them, for each node.
+  /// at m = 3; in space along a plane of them, for each node, on the mean over the thickness.
   template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model);
 

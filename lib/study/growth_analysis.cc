@@ -290,8 +290,9 @@ namespace plumbline::study
     {
       const double n = size.n_nodes;
       add_box(box);
-      layers = (box.upper[2] - box.lower[2]) / level.h;
-      size.n_nodes = n + layers * (size.n_nodes - n);
+      const double of_box = (box.upper[2] - box.lower[2]) / level.h;
+      layers = std::max(layers, of_box);
+      size.n_nodes = n + of_box * (size.n_nodes - n);
     }
     // half the ball's area or volume, in nodes
     size.n_bonds = (is_in_space ? 2. / 3 * M_PI * m : .5 * M_PI) * m * m * size.n_nodes;
@@ -473,11 +474,19 @@ namespace plumbline::study
         notes.push_back(tip.text(scene.domain.origin));
       return notes;
     }
-    std::vector<std::string> find_notes(const scene::Scene & /*scene*/,
-                                        const method::BreakableBody<3> & /*model*/,
-                                        double /*horizon*/)
+    /// The notch extends along z: what meets it in one layer of nodes meets it in all.
+    std::vector<std::string> find_notes(const scene::Scene &scene,
+                                        const method::BreakableBody<3> &model, double horizon)
     {
-      return {};
+      std::vector<Point<2>> layer;
+      for (const Point<3> &x : model.nodes)
+        if (std::abs(x[2] - model.nodes.front()[2]) < .5 * model.h)
+          layer.emplace_back(x[0], x[1]);
+      std::vector<std::string> notes;
+      for (const geometry::TipOnBonds &tip :
+           geometry::tips_on_bonds(scene.domain.cracks, layer, horizon))
+        notes.push_back(tip.text({}));
+      return notes;
     }
 
     void write_moments(const GrowthFindings & /*found*/, const WriteDamage & /*write*/) {}

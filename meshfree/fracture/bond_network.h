@@ -45,7 +45,7 @@ namespace plumbline::meshfree
     std::vector<int> grip;                        ///< of each node, -1: free
     std::vector<Tensor<1, dim>> constrained;      ///< u of each node at load 1, 0 where it is free
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
-    std::vector<double> toughness;                ///< G of each of them [force/length^(dim-1)]
+    std::vector<double> toughness;                ///< G of each of them [force/length]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut
     std::vector<double> dilatation;               ///< τ of each node; empty where λ = μ
 

@@ -35,7 +35,7 @@ namespace plumbline::meshfree
     Terms all(const Connections<dim> &connections) const; ///< of what is whole
 
     std::size_t n_unknowns() const { return n_unknowns_; }
-    double hold_stiffness() const { return hold_stiffness_; } ///< [force/length²]
+    double hold_stiffness() const { return hold_stiffness_; } ///< [force/length^(4 - dim)]
     void add_hold(const typename Connections<dim>::Hold &hold, const NodeField<dim> &u,
                   NodeField<dim> &forces) const;
 

@@ -38,10 +38,10 @@ namespace plumbline::meshfree
   const std::vector<Rule> &rules_on_request()
   {
     static const std::vector<Rule> table = {
-        {"PDDO",
-         "peridynamic differential operator: exact second moments for any kernel profile; not "
+        {"GFD",
+         "generalised finite differences: exact second moments, any kernel profile; not "
          "m-convergent",
-         differential_operator<2>, differential_operator<3>},
+         generalised_finite_differences<2>, generalised_finite_differences<3>},
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };

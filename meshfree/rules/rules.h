@@ -60,14 +60,15 @@ namespace plumbline::meshfree
   template <int dim>
   NeighbourhoodQuadrature<dim> optimisation_based(const Kernel<dim> &kernel);
 
-  /// Weights of the peridynamic differential operator (PDDO): coefficients w C of bonds that are
-  /// the cell's area times exp(-(2r/δ)²) times a polynomial, with exact moments up to degree 2, odd
-  /// ones too on scattered nodes; they depend on the kernel through its second moments only.
-  /// Asymptotically compatible; wrong at a fixed horizon, where the kernel's profile matters.
-  /// Kernel at the node. Infeasible, a NumericalError, as above.
-  /// Source: Madenci, Barut & Futch 2016, doi:10.1016/j.cma.2016.02.028.
+  /// Generalised finite differences by weighted least squares of degree 2: coefficients c = w C of
+  /// least Σ c²/(A g), g = exp(-(2r/δ)²), with the kernel's moments up to degree 2, odd ones too on
+  /// scattered nodes. They depend on the kernel through its second moments, and on where it
+  /// vanishes, to 1e-9: no weight has an effect there. Asymptotically compatible; wrong at a fixed
+  /// horizon, where the kernel's profile matters. Kernel at the node; tensors by the moments of
+  /// n⊗n, as recalibrated. Infeasible, a NumericalError, as above.
+  /// Source: Liszka & Orkisz 1980, doi:10.1016/0045-7949(80)90149-2.
   template <int dim>
-  NeighbourhoodQuadrature<dim> differential_operator(const Kernel<dim> &kernel);
+  NeighbourhoodQuadrature<dim> generalised_finite_differences(const Kernel<dim> &kernel);
 
   /// A row of the table of rules.
   struct Rule
@@ -80,7 +81,7 @@ namespace plumbline::meshfree
   /// All rules; a new one is one source file and one row here.
   const std::vector<Rule> &rules();
 
-  /// Rules that `all` does not include: not m-convergent (PDDO), or counterexamples.
+  /// Rules that `all` does not include: not m-convergent (GFD), or counterexamples.
   const std::vector<Rule> &rules_on_request();
 
   /// The rule of a name, in any case.

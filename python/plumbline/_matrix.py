@@ -33,7 +33,7 @@ class Matrix:
     n_unknown_nodes: int     # nodes whose values are unknown: the first ones
     n_components: int        # of u at each node
     constraint: np.ndarray   # u of the constrained nodes, shape ((n_nodes - n_unknown_nodes) *
-                             # n_components,)
+                             # n_components,); may be 0 at nodes that no row reaches
     volumes: Optional[np.ndarray]  # of the cells of free nodes, shape (n_unknown_nodes,)
                                    # [length^dim]; None for Galerkin methods
     is_exact: bool       # False: entries by quadrature, which is refined as solve() refines it

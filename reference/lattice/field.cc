@@ -27,14 +27,26 @@ namespace plumbline::reference
 
   LatticeField::Place LatticeField::place(const geometry::Point<2> &x) const
   {
-    Place result;
+    constexpr double rounding = 1e-9;
+    std::array<double, 2> s{};
+    std::array<std::vector<int>, 2> cells; // that hold x along an axis
     for (unsigned int d = 0; d < 2; ++d)
     {
-      const double s = (x[d] - lattice_.origin()[d]) / lattice_.h();
-      result.cell[d] = std::clamp(static_cast<int>(std::floor(s)), 0, lattice_.n_cells()[d] - 1);
-      result.inner[d] = s - result.cell[d];
+      s[d] = (x[d] - lattice_.origin()[d]) / lattice_.h();
+      for (const double beside : {0., -rounding, rounding})
+        cells[d].push_back(
+            std::clamp(static_cast<int>(std::floor(s[d] + beside)), 0, lattice_.n_cells()[d] - 1));
     }
-    return result;
+    std::array<int, 2> cell = {cells[0].front(), cells[1].front()};
+    bool is_found = lattice_.is_inside(cell[0], cell[1]);
+    for (const int j : cells[1]) // on a side of Ω the cell in it
+      for (const int i : cells[0])
+        if (!is_found && lattice_.is_inside(i, j))
+        {
+          cell = {i, j};
+          is_found = true;
+        }
+    return {cell, {s[0] - cell[0], s[1] - cell[1]}};
   }
 
   double LatticeField::value(const geometry::Point<2> &x, unsigned int component) const

@@ -130,8 +130,8 @@ TEST(FamiliesInSpace, recalibrated_meet_all_moments_of_their_degree)
   }
   EXPECT_LT(moment_defect(make("IPA-AC-R4", scalar_kernel<3>(4), cells), 4), 1e-11);
   EXPECT_LT(moment_defect(make("OPT", tensor_kernel<3>(3), cells), 2), 1e-10);
-  EXPECT_LT(moment_defect(make("PDDO", scalar_kernel<3>(3), cells), 2), 1e-11);
-  EXPECT_LT(moment_defect(make("PDDO", tensor_kernel<3>(3), cells), 2), 1e-10);
+  EXPECT_LT(moment_defect(make("GFD", scalar_kernel<3>(3), cells), 2), 1e-11);
+  EXPECT_LT(moment_defect(make("GFD", tensor_kernel<3>(3), cells), 2), 1e-10);
 }
 
 // -∫ C (u(x+ξ) - u(x)) of a quadratic is the local operator's value.

@@ -244,13 +244,13 @@ TEST(OptimisationBased, loses_rank_below_2_24_and_is_infeasible_at_1_5)
 }
 
 // By symmetry the polynomial is a multiple of |ξ|², which the second moment settles.
-TEST(DifferentialOperator, has_its_closed_form_on_lattices_whatever_the_profile_is)
+TEST(GeneralisedFiniteDifferences, has_its_closed_form_on_lattices_whatever_the_profile_is)
 {
   for (const std::string type : {"constant", "linear-decay", "1/r"})
     for (const double m : {2., 3., 4.7})
     {
       const auto kernel = scalar_kernel<2>(m, type);
-      const auto bonds = make(differential_operator(kernel), kernel);
+      const auto bonds = make(generalised_finite_differences(kernel), kernel);
       const auto shape = [&](const Bond<2> &bond)
       {
         const double s = 2 * bond.xi.norm() / kernel.horizon();
@@ -268,12 +268,12 @@ TEST(DifferentialOperator, has_its_closed_form_on_lattices_whatever_the_profile_
     }
 }
 
-TEST(DifferentialOperator, has_no_bond_where_the_kernel_vanishes)
+TEST(GeneralisedFiniteDifferences, has_no_bond_where_the_kernel_vanishes)
 {
   const auto decay = scalar_kernel<2>(3, "linear-decay"),
              constant = scalar_kernel<2>(3, "constant");
   const auto n_bonds = [](const Kernel<2> &kernel)
-  { return make(differential_operator(kernel), kernel).family.size(); };
+  { return make(generalised_finite_differences(kernel), kernel).family.size(); };
   EXPECT_EQ(n_bonds(constant), 28u);
   EXPECT_EQ(n_bonds(decay), 24u); // four nodes lie on the circle
 }

@@ -175,7 +175,7 @@ TEST(Families, recalibrated_meet_all_moments_of_their_degree)
     const auto four = make_problem(.3, is_tensor, .125, 4);
     EXPECT_LT(moment_defect(make_families("IPA-AC-R4", four), 4), 1e-12) << is_tensor;
     EXPECT_LT(moment_defect(make_families("OPT", make_problem(.3, true, .125, 3)), 2), 1e-12);
-    EXPECT_LT(moment_defect(make_families("PDDO", make_problem(.3, is_tensor, .125, 3)), 2), 1e-12);
+    EXPECT_LT(moment_defect(make_families("GFD", make_problem(.3, is_tensor, .125, 3)), 2), 1e-12);
   }
 }
 

@@ -77,8 +77,8 @@ TEST(LimitProof, tells_right_rules_from_wrong_ones_for_every_model)
     for (const auto *scene : {&scalar, &tensor, &state})
       EXPECT_EQ(proof(*scene, name).answer, Answer::compatible) << name;
   EXPECT_EQ(proof(scalar, "OPT").answer, Answer::incompatible);
-  EXPECT_EQ(proof(scalar, "PDDO").answer, Answer::compatible);
-  EXPECT_EQ(proof(tensor, "PDDO").answer, Answer::compatible);
+  EXPECT_EQ(proof(scalar, "GFD").answer, Answer::compatible);
+  EXPECT_EQ(proof(tensor, "GFD").answer, Answer::compatible);
   EXPECT_EQ(proof(tensor, "OPT").answer, Answer::compatible);
   EXPECT_EQ(proof(state, "OPT").answer, Answer::compatible);
 }

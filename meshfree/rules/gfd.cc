@@ -7,12 +7,16 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// Where the kernel vanishes no weight has an effect, and there is no bond.
+    /// Where the kernel vanishes, to rounding, no weight has an effect, and there is no bond.
     template <int dim>
     Bond<dim> bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
     {
+      constexpr double rounding = 1e-9;
+      Exponents<dim> second{};
+      second[0] = 2;
+      const double scale = kernel.moment(second) / std::pow(kernel.horizon(), dim + 2);
       Bond<dim> result = full_area_bond(kernel, candidate);
-      if (result.weight != 0 && radial_value(kernel, result) == 0)
+      if (result.weight != 0 && std::abs(radial_value(kernel, result)) <= rounding * scale)
         result.weight = 0;
       return result;
     }
@@ -35,7 +39,7 @@ namespace plumbline::meshfree
   } // namespace
 
   template <int dim>
-  NeighbourhoodQuadrature<dim> differential_operator(const Kernel<dim> &kernel)
+  NeighbourhoodQuadrature<dim> generalised_finite_differences(const Kernel<dim> &kernel)
   {
     // on a lattice symmetry meets the odd moments, which need not be independent there
     const auto even = conditions_of(kernel, even_exponents<dim>),
@@ -48,6 +52,6 @@ namespace plumbline::meshfree
             }};
   }
 
-  template NeighbourhoodQuadrature<2> differential_operator(const Kernel<2> &);
-  template NeighbourhoodQuadrature<3> differential_operator(const Kernel<3> &);
+  template NeighbourhoodQuadrature<2> generalised_finite_differences(const Kernel<2> &);
+  template NeighbourhoodQuadrature<3> generalised_finite_differences(const Kernel<3> &);
 } // namespace plumbline::meshfree
