@@ -28,7 +28,7 @@ namespace plumbline::meshfree
                                                                               int highest))
     {
       constexpr unsigned int degree = 2;
-      MomentConditions<dim> conditions = kernel_conditions(kernel, degree, select);
+      MomentConditions<dim> conditions = kernel_conditions<dim>(kernel, degree, select);
       conditions.scale = [kernel](const Bond<dim> &bond)
       {
         const double s = 2 * bond.xi.norm() / kernel.horizon(), C = radial_value(kernel, bond);

@@ -217,8 +217,8 @@ namespace plumbline::meshfree
 #define PLUMBLINE_INSTANTIATE(dim)                                                                 \
   template std::vector<Exponents<dim>> exponents<dim>(int, int);                                   \
   template std::vector<Exponents<dim>> even_exponents<dim>(int, int);                              \
-  template MomentConditions<dim> kernel_conditions(const Kernel<dim> &, unsigned int,              \
-                                                   std::vector<Exponents<dim>> (*)(int, int));     \
+  template MomentConditions<dim> kernel_conditions<dim>(                                           \
+      const Kernel<dim> &, unsigned int, std::vector<Exponents<dim>> (*)(int, int));               \
   template void meet(const MomentConditions<dim> &, Family<dim> &);
   PLUMBLINE_INSTANTIATE(2)
   PLUMBLINE_INSTANTIATE(3)

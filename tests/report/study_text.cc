@@ -12,9 +12,9 @@ namespace
   using namespace plumbline::report;
 
   /// Methods at three levels each, with tables wider and longer than a terminal.
-  View long_view(unsigned int n_methods)
+  report::View long_view(unsigned int n_methods)
   {
-    View view{"Stability"};
+    report::View view{"Stability"};
     Part part;
     part.id = "measures";
     part.head = "Measures";
@@ -89,7 +89,7 @@ TEST(StudySummary, shows_the_finest_levels_and_ends_in_the_answer)
   ASSERT_GE(lines.size(), 3u);
   EXPECT_EQ(lines.back(), "stable: method0, method2; unstable: method1, method3");
   EXPECT_EQ(lines[lines.size() - 3], "report: results/stability.html");
-  View answered = long_view(4);
+  report::View answered = long_view(4);
   answered.answer = "The crack runs.";
   EXPECT_EQ(lines_of(study_summary(answered, {}, "")).back(), "The crack runs.");
 }
@@ -108,7 +108,7 @@ TEST(StudyPage, begins_with_the_answer_that_the_terminal_ends_in)
   const fixture::Folder folder;
   StudyResults results;
   results.analysis = "stability";
-  View view = long_view(4);
+  report::View view = long_view(4);
   write_study(view, results, folder.path());
   const std::string answer = "stable: method0, method2; unstable: method1, method3";
   const std::string html = fixture::read(folder.path() / "stability.html");
