@@ -296,7 +296,8 @@ TEST(SampleCommand, lists_a_sample_that_fails_and_keeps_the_rest)
   EXPECT_NEAR(json["failures"][0]["values"][0], -std::sqrt(3.), 1e-14);
   EXPECT_TRUE(json["cases"][0]["sets"][1]["quantities"].empty());
   EXPECT_FALSE(json["cases"][0]["sets"][0]["quantities"].empty());
-  expect_found(read(folder / "sample.html"), "Samples that failed");
+  expect_found(read(folder / "sample.html"),
+               "Failed samples; the results are those of the others.");
   // it is not tried again: it would fail again
   std::map<std::string, fs::file_time_type> written;
   for (const auto &file : fs::directory_iterator(folder / "samples"))
@@ -326,7 +327,7 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
     sum += share.get<double>();
   EXPECT_EQ(json["spectrum"].size(), 20);
   EXPECT_NEAR(json["variance_kept"], sum, 1e-12);
-  expect_found(read(folder / "sample.html"), "Variance that modes hold");
+  expect_found(read(folder / "sample.html"), "Variance of the modes");
   EXPECT_TRUE(fs::exists(folder / "sample/spectrum.csv"));
   fs::remove_all(folder);
   // so do pages of one sample
@@ -336,7 +337,7 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
                           folder.string());
   ASSERT_EQ(one.exit_code, 0) << one.err;
   expect_found(read(folder / "grow.html"), "20 modes hold");
-  expect_found(read(folder / "grow.html"), "Variance that modes hold");
+  expect_found(read(folder / "grow.html"), "Variance of the modes");
   expect_found(read(folder / "grow.html"), "40 realisations of the field: Random/seed = 1");
   EXPECT_EQ(Json::parse(read(folder / "grow.json"))["records"][0]["scalars"]["field seed"]["value"],
             1);

@@ -32,10 +32,7 @@ namespace
   Families<3> make(const std::string &name, const Kernel<3> &kernel,
                    const geometry::NodeCells<3> &cells)
   {
-    for (const Rule &one : rules())
-      if (one.name == name)
-        return {one.in_space(kernel), kernel, cells, Backend::fast};
-    throw InputError("there is no rule " + name);
+    return {find_rule(name, "rule").in_space(kernel), kernel, cells, Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| δ^(2 - |α|) over all families, 1 <= |α| <= degree.

@@ -39,15 +39,10 @@ namespace
         make_scene(perturbation, is_tensor, is_tensor ? "x, y" : "x", kernel_keys), 0, {h, m * h});
   }
 
-  const Rule &rule(const std::string &name)
-  {
-    return *std::find_if(rules().begin(), rules().end(),
-                         [&](const Rule &rule) { return rule.name == name; });
-  }
-
   Families<2> make_families(const std::string &name, const problem::Problem<2> &problem)
   {
-    return {rule(name).in_plane(problem.kernel), problem.kernel, *problem.cells(), Backend::fast};
+    return {find_rule(name, "rule").in_plane(problem.kernel), problem.kernel, *problem.cells(),
+            Backend::fast};
   }
 
   /// The largest |Σ C_ab w ξ^α - ∫ C_ab ξ^α| over all families, |α| <= degree, relative to
