@@ -293,3 +293,26 @@ TEST(LatticeField, averages_are_the_integrals_of_the_field)
     EXPECT_EQ(index, averages.size());
   }
 }
+
+// Beside the hole u = x; in its middle vertex, which its cells alone have, u is another number.
+TEST(LatticeField, has_the_gradient_of_the_domain_on_the_side_of_a_hole)
+{
+  constexpr double size = .25;
+  const geometry::Lattice lattice(
+      {{{Point<2>(0, 0), Point<2>(1, 1)}}, {{Point<2>(.25, .25), Point<2>(.75, .75)}}}, size);
+  const reference::AxisShapes shapes(true, 1);
+  const int first = shapes.owner(0).shift; // from a cell to its lower vertex
+  std::vector<double> values;
+  for (int j = -1; j <= 4; ++j)
+    for (int i = -1; i <= 4; ++i)
+      values.push_back(i - first == 2 && j - first == 2 ? 100 : size * (i - first));
+  const reference::LatticeField field(lattice, shapes, 1, values);
+  for (const Point<2> &x : {Point<2>(.25, .5), Point<2>(.75, .4), Point<2>(.5, .25),
+                            Point<2>(.4, .75), Point<2>(.1, .1), Point<2>(1, 1)})
+  {
+    const auto gradient = field.gradient(x, 0);
+    EXPECT_NEAR(gradient[0], 1, 1e-13) << x;
+    EXPECT_NEAR(gradient[1], 0, 1e-13) << x;
+    EXPECT_NEAR(field.value(x, 0), x[0], 1e-14) << x;
+  }
+}

@@ -386,3 +386,24 @@ TEST(CrackFront, is_the_tip_of_each_layer)
   EXPECT_EQ(study::n_unpaired(model, {all[0], all[1]}, 2, 1), 0u);
   EXPECT_EQ(study::n_unpaired(model, {broken(4.5, 0, 0)}, 2, 1), 1u);
 }
+
+// Full areas at m = 2: by rise times number, bonds within a layer have 1 + 2 + 2, those to the
+// next layers 2 + 4, which the outer layers have to one side only.
+TEST(CrackFront, counts_bonds_across_a_plane_on_the_mean_over_the_thickness)
+{
+  constexpr int n = 9;
+  for (const int n_layers : {2, 5})
+  {
+    plumbline::method::BreakableBody<3> model;
+    model.h = 1;
+    for (int z = 0; z < n_layers; ++z)
+      for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+          model.nodes.emplace_back(x, y, z);
+    for (unsigned int i = 0; i < model.nodes.size(); ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        if ((model.nodes[i] - model.nodes[j]).norm_square() < 4 + 1e-9)
+          model.bonds.push_back({i, j});
+    EXPECT_NEAR(bonds_across(model), 5 + 6. * (n_layers - 1) / n_layers, 1e-12) << n_layers;
+  }
+}
