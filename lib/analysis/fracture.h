@@ -53,9 +53,9 @@ namespace plumbline::analysis
   /// holds to rounding; its terms are computed independently of each other.
   /// @param earlier  events of the same growth, to go on from to the same bits
   /// @throws NumericalError  an audit that is wrong by more than 1e-8, of a body that has an
-  /// energy; as QuasistaticFractureModel Not for: loads that fall (what grips do at load 1 is all
-  /// they do), bonds that heal. Source: sequentially linear analysis, Rots & Invernizzi 2004,
-  /// doi:10.1002/nag.371.
+  /// energy; as QuasistaticFractureModel
+  /// Not for: decreasing loads, bonds that heal.
+  /// Source: sequentially linear analysis, Rots & Invernizzi 2004, doi:10.1002/nag.371.
   Growth grow(method::QuasistaticFractureModel &body, const problem::FractureSettings &rules,
               std::vector<Event> earlier = {}, const EventObserver &observe = {});
 } // namespace plumbline::analysis

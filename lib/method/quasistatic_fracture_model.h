@@ -8,8 +8,8 @@ namespace plumbline::method
 {
   /// A body held together by bonds, each whole or broken, whose response to its load is linear
   /// while none of them breaks: what analysis::grow needs of a discretisation. The load is a factor
-  /// of what grips do; quantities are those at load 1 and go with the load (reactions, stretches)
-  /// or its square (energies).
+  /// of the displacements of the grips; quantities are those at load 1 and go with the load
+  /// (reactions, stretches) or its square (energies).
   class QuasistaticFractureModel
   {
   public:

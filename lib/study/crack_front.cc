@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace plumbline::study
 {
@@ -14,15 +13,6 @@ namespace plumbline::study
   namespace
   {
     using SpaceModel = method::BreakableBody<3>;
-    using LatticePlace = std::array<long, 3>; ///< in half mesh sizes from the first node
-
-    LatticePlace place_of(const SpaceModel &model, const Point<3> &x)
-    {
-      LatticePlace place{};
-      for (unsigned int d = 0; d < 3; ++d)
-        place[d] = std::lround(2 * (x[d] - model.nodes.front()[d]) / model.h);
-      return place;
-    }
 
     /// The nodes of one z and the bonds between them as a body in the plane.
     struct Layer
@@ -39,7 +29,7 @@ namespace plumbline::study
       std::vector<unsigned int> number;
       for (const Point<3> &x : model.nodes)
       {
-        layer_of.push_back(place_of(model, x)[2]);
+        layer_of.push_back(lattice_place(model, x)[2]);
         Layer &layer = layers[layer_of.back()];
         layer.z = x[2];
         number.push_back(static_cast<unsigned int>(layer.model.nodes.size()));
@@ -92,30 +82,5 @@ namespace plumbline::study
       front.n_elsewhere += path.n_elsewhere;
     }
     return front;
-  }
-
-  std::size_t n_unpaired(const SpaceModel &model, const std::vector<std::size_t> &broken,
-                         unsigned int axis, double middle)
-  {
-    using BondEnds = std::array<LatticePlace, 2>;
-    const auto key = [&](std::size_t bond, bool is_mirrored)
-    {
-      BondEnds ends{};
-      for (unsigned int i = 0; i < 2; ++i)
-      {
-        Point<3> x = model.nodes[model.bonds[bond][i]];
-        if (is_mirrored)
-          x[axis] = 2 * middle - x[axis];
-        ends[i] = place_of(model, x);
-      }
-      std::sort(ends.begin(), ends.end());
-      return ends;
-    };
-    std::set<BondEnds> all;
-    for (const std::size_t bond : broken)
-      all.insert(key(bond, false));
-    return static_cast<std::size_t>(std::count_if(broken.begin(), broken.end(),
-                                                  [&](std::size_t bond)
-                                                  { return all.count(key(bond, true)) == 0; }));
   }
 } // namespace plumbline::study

@@ -12,16 +12,7 @@ namespace plumbline::study
 
   namespace
   {
-    using LatticePlace = std::array<long, 2>; ///< in half mesh sizes from the first node
-
     constexpr double nearest = 1.01; // mesh sizes, of next neighbours
-
-    LatticePlace place_of(const GrowthModel &model, const Point<2> &x)
-    {
-      const auto step = [&](unsigned int d)
-      { return std::lround(2 * (x[d] - model.nodes.front()[d]) / model.h); };
-      return {step(0), step(1)};
-    }
 
     bool are_next(const GrowthModel &model, const std::array<unsigned int, 2> &bond)
     {
@@ -36,7 +27,7 @@ namespace plumbline::study
       const double difference = x.distance(model.notch_tip) - y.distance(model.notch_tip);
       if (std::abs(difference) > rounding * model.h)
         return difference > 0;
-      const LatticePlace a = place_of(model, x), b = place_of(model, y);
+      const LatticePlace<2> a = lattice_place(model, x), b = lattice_place(model, y);
       return std::make_pair(a[1], a[0]) > std::make_pair(b[1], b[0]);
     }
 
@@ -84,13 +75,13 @@ namespace plumbline::study
       /// The axis that a side is along.
       unsigned int axis(const Ends &ends) const
       {
-        return place_of(*model_, ends[0])[0] == place_of(*model_, ends[1])[0] ? 1 : 0;
+        return lattice_place(*model_, ends[0])[0] == lattice_place(*model_, ends[1])[0] ? 1 : 0;
       }
 
       void insert(const Ends &ends)
       {
         for (const Point<2> &end : ends)
-          places_[axis(ends)].insert(place_of(*model_, end));
+          places_[axis(ends)].insert(lattice_place(*model_, end));
       }
 
       /// At an end, or where a crack steps from one row to the next without parting neighbours.
@@ -100,7 +91,7 @@ namespace plumbline::study
         const unsigned int along = axis(ends);
         for (const Point<2> &end : ends)
         {
-          LatticePlace place = place_of(*model_, end);
+          LatticePlace<2> place = lattice_place(*model_, end);
           if (places_[0].count(place) > 0 || places_[1].count(place) > 0)
             return true;
           for (const long to : {-step, 2 * step})
@@ -114,7 +105,7 @@ namespace plumbline::study
       }
 
       const GrowthModel *model_;
-      std::array<std::set<LatticePlace>, 2> places_; ///< of sides along x and along y
+      std::array<std::set<LatticePlace<2>>, 2> places_; ///< of sides along x and along y
     };
   } // namespace
 
@@ -142,37 +133,13 @@ namespace plumbline::study
     }
     std::set<long> columns;
     for (const CrackSide &side : path.sides)
-      if (const LatticePlace a = place_of(model, side.ends[0]), b = place_of(model, side.ends[1]);
+      if (const LatticePlace<2> a = lattice_place(model, side.ends[0]),
+          b = lattice_place(model, side.ends[1]);
           a[0] != b[0])
         columns.insert(a[0] + b[0]);
     path.width = static_cast<double>(columns.size()) * model.h;
     for (const CrackSide &side : path.sides)
       path.n_elsewhere += side.is_joined ? 0 : 1;
     return path;
-  }
-
-  std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
-                         double middle)
-  {
-    using BondEnds = std::array<LatticePlace, 2>;
-    const auto key = [&](std::size_t bond, bool is_mirrored)
-    {
-      BondEnds ends{};
-      for (unsigned int i = 0; i < 2; ++i)
-      {
-        Point<2> x = model.nodes[model.bonds[bond][i]];
-        if (is_mirrored)
-          x[1] = 2 * middle - x[1];
-        ends[i] = place_of(model, x);
-      }
-      std::sort(ends.begin(), ends.end());
-      return ends;
-    };
-    std::set<BondEnds> all;
-    for (const std::size_t bond : broken)
-      all.insert(key(bond, false));
-    return static_cast<std::size_t>(std::count_if(broken.begin(), broken.end(),
-                                                  [&](std::size_t bond)
-                                                  { return all.count(key(bond, true)) == 0; }));
   }
 } // namespace plumbline::study

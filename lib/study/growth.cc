@@ -107,6 +107,42 @@ namespace plumbline::study
   }
 
   template <int dim>
+  LatticePlace<dim> lattice_place(const method::BreakableBody<dim> &model,
+                                  const dealii::Point<dim> &x)
+  {
+    LatticePlace<dim> place{};
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = std::lround(2 * (x[d] - model.nodes.front()[d]) / model.h);
+    return place;
+  }
+
+  template <int dim>
+  std::size_t n_unpaired(const method::BreakableBody<dim> &model,
+                         const std::vector<std::size_t> &broken, unsigned int axis, double middle)
+  {
+    using BondEnds = std::array<LatticePlace<dim>, 2>;
+    const auto key = [&](std::size_t bond, bool is_mirrored)
+    {
+      BondEnds ends{};
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        dealii::Point<dim> x = model.nodes[model.bonds[bond][i]];
+        if (is_mirrored)
+          x[axis] = 2 * middle - x[axis];
+        ends[i] = lattice_place(model, x);
+      }
+      std::sort(ends.begin(), ends.end());
+      return ends;
+    };
+    std::set<BondEnds> all;
+    for (const std::size_t bond : broken)
+      all.insert(key(bond, false));
+    return static_cast<std::size_t>(std::count_if(broken.begin(), broken.end(),
+                                                  [&](std::size_t bond)
+                                                  { return all.count(key(bond, true)) == 0; }));
+  }
+
+  template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model)
   {
     // of whole bonds by how far they reach up, for each node that has all of them: of the node
@@ -118,11 +154,11 @@ namespace plumbline::study
         const double rise = (model.nodes[bond[1]][1] - model.nodes[bond[0]][1]) / model.h;
         reach[rise > 0 ? bond[0] : bond[1]] += std::abs(rise);
       }
-    std::map<std::array<long, 2>, std::array<double, 2>> columns; // sum and number of nodes
+    std::map<LatticePlace<2>, std::array<double, 2>> columns; // sum and number of nodes
     for (std::size_t i = 0; i < reach.size(); ++i)
     {
-      auto &[sum, n] = columns[{std::lround(2 * model.nodes[i][0] / model.h),
-                                std::lround(2 * model.nodes[i][1] / model.h)}];
+      const LatticePlace<dim> place = lattice_place(model, model.nodes[i]);
+      auto &[sum, n] = columns[{place[0], place[1]}];
       sum += reach[i];
       ++n;
     }
@@ -149,6 +185,10 @@ namespace plumbline::study
 #define INSTANTIATE(dim)                                                                           \
   template std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &,            \
                                                     const std::vector<Event> &);                   \
+  template LatticePlace<dim> lattice_place<dim>(const method::BreakableBody<dim> &,                \
+                                                const dealii::Point<dim> &);                       \
+  template std::size_t n_unpaired(const method::BreakableBody<dim> &,                              \
+                                  const std::vector<std::size_t> &, unsigned int, double);         \
   template double bonds_across(const method::BreakableBody<dim> &);                                \
   template std::vector<BrokenPart> broken_parts(const method::BreakableBody<dim> &,                \
                                                 const std::vector<std::size_t> &);

@@ -47,9 +47,19 @@ namespace plumbline::study
   };
   CrackPath find_path(const GrowthModel &model, const std::vector<analysis::Event> &events);
 
-  /// Bonds that broke whose mirror images about y = `middle` did not, or are none.
-  std::size_t n_unpaired(const GrowthModel &model, const std::vector<std::size_t> &broken,
-                         double middle);
+  // Instantiated for dim = 2 and 3.
+
+  /// A place on a body's lattice, in half mesh sizes from its first node.
+  template <int dim>
+  using LatticePlace = std::array<long, dim>;
+  template <int dim>
+  LatticePlace<dim> lattice_place(const method::BreakableBody<dim> &model,
+                                  const dealii::Point<dim> &x);
+
+  /// Broken bonds whose mirror image about the plane axis = middle is intact or does not exist.
+  template <int dim>
+  std::size_t n_unpaired(const method::BreakableBody<dim> &model,
+                         const std::vector<std::size_t> &broken, unsigned int axis, double middle);
 
   /// What a crack has broken of a material, a phase or an interface of one toughness.
   struct BrokenPart
@@ -86,18 +96,24 @@ namespace plumbline::study
   std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &model,
                                            const std::vector<analysis::Event> &events);
 
-  /// A growth and what is found out of it.
-  struct GrowthFindings
+  /// A growth and what is found out of it in the plane and in space alike.
+  template <int dim>
+  struct CommonFindings
   {
     analysis::Growth growth;
-    CrackPath path;
     std::vector<GrowthMoment> moments;
     std::vector<BrokenPart> parts;
-    std::vector<dealii::Point<2>> nodes;
-    std::vector<double> toughness; ///< see GrowthModel
+    std::vector<dealii::Point<dim>> nodes;
     dealii::Point<2> notch_tip;
-    dealii::Point<2> origin;  ///< that places count from, see scene::DomainSection
-    double plane_modulus = 0; ///< mean of E/(1 - nu²) over the nodes [force/length²]
+  };
+
+  /// All of it in the plane.
+  struct GrowthFindings : CommonFindings<2>
+  {
+    CrackPath path;
+    std::vector<double> toughness; ///< see GrowthModel
+    dealii::Point<2> origin;       ///< that places count from, see scene::DomainSection
+    double plane_modulus = 0;      ///< mean of E/(1 - nu²) over the nodes [force/length²]
     std::size_t n_unpaired = 0;
   };
 
@@ -133,19 +149,10 @@ namespace plumbline::study
   CrackFront find_front(const method::BreakableBody<3> &model,
                         const std::vector<analysis::Event> &events);
 
-  /// Broken bonds whose mirror image about the plane axis = middle is intact or does not exist.
-  std::size_t n_unpaired(const method::BreakableBody<3> &model,
-                         const std::vector<std::size_t> &broken, unsigned int axis, double middle);
-
-  /// A growth in space and what is found out of it.
-  struct FrontFindings
+  /// All of it in space.
+  struct FrontFindings : CommonFindings<3>
   {
-    analysis::Growth growth;
     CrackFront front;
-    std::vector<GrowthMoment> moments;
-    std::vector<BrokenPart> parts;
-    std::vector<dealii::Point<3>> nodes;
-    dealii::Point<2> notch_tip;
     double h = 0;
     std::size_t n_unpaired_in_y = 0, n_unpaired_in_z = 0;
   };

@@ -428,21 +428,27 @@ namespace plumbline::study
       return broken;
     }
 
+    template <int dim>
+    CommonFindings<dim> common_findings(const method::BreakableBody<dim> &model,
+                                        analysis::Growth growth,
+                                        const std::vector<std::size_t> &broken)
+    {
+      auto moments = growth_moments(model, growth.events);
+      return {std::move(growth), std::move(moments), broken_parts(model, broken), model.nodes,
+              model.notch_tip};
+    }
+
     FrontFindings find_out(const scene::Scene &scene, const method::BreakableBody<3> &model,
                            analysis::Growth growth)
     {
       const std::vector<std::size_t> broken = all_broken(growth);
       const std::vector<geometry::Cuboid> &boxes = scene.domain.solid.include;
       FrontFindings found;
-      found.front = find_front(model, growth.events);
-      found.moments = growth_moments(model, growth.events);
-      found.parts = broken_parts(model, broken);
-      found.nodes = model.nodes;
-      found.notch_tip = model.notch_tip;
+      static_cast<CommonFindings<3> &>(found) = common_findings(model, std::move(growth), broken);
+      found.front = find_front(model, found.growth.events);
       found.h = model.h;
       found.n_unpaired_in_y = n_unpaired(model, broken, 1, middle(boxes, 1));
       found.n_unpaired_in_z = n_unpaired(model, broken, 2, middle(boxes, 2));
-      found.growth = std::move(growth);
       return found;
     }
 
@@ -451,16 +457,12 @@ namespace plumbline::study
     {
       const std::vector<std::size_t> broken = all_broken(growth);
       GrowthFindings found;
-      found.path = find_path(model, growth.events);
-      found.moments = growth_moments(model, growth.events);
-      found.parts = broken_parts(model, broken);
-      found.nodes = model.nodes;
+      static_cast<CommonFindings<2> &>(found) = common_findings(model, std::move(growth), broken);
+      found.path = find_path(model, found.growth.events);
       found.toughness = model.toughness;
-      found.notch_tip = model.notch_tip;
       found.origin = scene.domain.origin;
       found.plane_modulus = mean_plane_modulus(scene, model.nodes);
-      found.n_unpaired = n_unpaired(model, broken, middle(scene.domain.boxes.include, 1));
-      found.growth = std::move(growth);
+      found.n_unpaired = n_unpaired(model, broken, 1, middle(scene.domain.boxes.include, 1));
       return found;
     }
 

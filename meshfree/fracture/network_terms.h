@@ -5,7 +5,7 @@
 
 namespace plumbline::meshfree
 {
-  /// A linear form of the unknowns, and its value of what grips do.
+  /// A linear form of the unknowns, and its value for the displacements of the grips.
   struct Form
   {
     std::vector<std::pair<unsigned int, double>> entries;
@@ -41,7 +41,7 @@ namespace plumbline::meshfree
 
     std::vector<double> free(const NodeField<dim> &field) const;      ///< the unknowns' part
     NodeField<dim> expand(const std::vector<double> &x) const;        ///< 0 at grips
-    NodeField<dim> displacements(const std::vector<double> &x) const; ///< what grips do there
+    NodeField<dim> displacements(const std::vector<double> &x) const; ///< those of the grips there
     std::vector<Point<dim>> free_nodes() const;
 
   private:

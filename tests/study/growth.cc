@@ -260,9 +260,9 @@ TEST(Growth, lengths_are_those_within_phases_and_between_them)
 TEST(Growth, mirror_images_are_paired)
 {
   const GrowthModel model = comb(8);
-  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 0)}, 0), 0u);
-  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 4.5, -1)}, 0), 0u);
-  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 5.5, -1)}, 0), 2u);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 0)}, 1, 0), 0u);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 4.5, -1)}, 1, 0), 0u);
+  EXPECT_EQ(n_unpaired(model, {bond(model, 4.5, 1), bond(model, 5.5, -1)}, 1, 0), 2u);
 }
 
 TEST(Growth, moments_are_even_parts_of_what_breaks)
