@@ -85,7 +85,8 @@ namespace plumbline::app
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
       return study_taker(study::dispersion_analysis());
     if (is_growth(scene))
-      return clean(long_taker(study::growth_analysis));
+      return clean(long_taker([](const study::Checkpoints &own)
+                              { return study::growth_analysis(own, {}); }));
     if (scene.crack.is_there())
       return clean(
           long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));

@@ -140,12 +140,8 @@ namespace plumbline::meshfree
       {
         BreakingSolid<2> solid = make_strip(strip, lame, influence.horizon());
         solid.surface_terms = terms;
-        return meshfree::breakable_body(
-            std::make_shared<BreakingNetwork<2>>(
-                make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
-                                  influence, strip.h, backend),
-                problem::Stretch::linear),
-            {strip.n_crack * strip.h, 0});
+        return make_body(solid, rule_.in_plane, influence, strip.h, backend,
+                         problem::Stretch::linear, problem::GrowthSolver::factor);
       }
 
       double expected_bytes(const method::ProblemSize &size) const override

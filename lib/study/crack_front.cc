@@ -55,7 +55,7 @@ namespace plumbline::study
       return result;
     }
 
-    /// With those of the bonds that lie in a layer.
+    /// The events, each reduced to its bonds that lie in the layer.
     std::vector<Event> in_layer(const Layer &layer, const std::vector<Event> &events)
     {
       std::vector<Event> result(events.size());

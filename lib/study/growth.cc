@@ -145,8 +145,8 @@ namespace plumbline::study
   template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model)
   {
-    // of whole bonds by how far they reach up, for each node that has all of them: of the node
-    // whose bonds are most, in space of the column of nodes along z, whose ends have fewer
+    // for each node the sum of the rises, in h, of its bonds that point to larger y; the result is
+    // the maximum, in space of the means over the columns of nodes along z
     std::vector<double> reach(model.nodes.size(), 0);
     for (const auto *const bonds : {&model.bonds, &model.cut})
       for (const auto &bond : *bonds)

@@ -76,8 +76,8 @@ namespace plumbline::study
   std::vector<BrokenPart> broken_parts(const method::BreakableBody<dim> &model,
                                        const std::vector<std::size_t> &broken);
 
-  /// Bonds that a straight crack across y, along a row of nodes, breaks for each column of them: 18
-  /// at m = 3; in space along a plane of them, for each node, on the mean over the thickness.
+  /// Number of bonds that a crack normal to y breaks per column of nodes: 18 at m = 3 with full
+  /// areas; in space per node of the crack plane, averaged over the thickness.
   template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model);
 
@@ -96,7 +96,7 @@ namespace plumbline::study
   std::vector<GrowthMoment> growth_moments(const method::BreakableBody<dim> &model,
                                            const std::vector<analysis::Event> &events);
 
-  /// A growth and what is found out of it in the plane and in space alike.
+  /// A growth, and the results that the plane and space have in common.
   template <int dim>
   struct CommonFindings
   {
@@ -107,7 +107,7 @@ namespace plumbline::study
     dealii::Point<2> notch_tip;
   };
 
-  /// All of it in the plane.
+  /// The results in the plane.
   struct GrowthFindings : CommonFindings<2>
   {
     CrackPath path;
@@ -149,7 +149,7 @@ namespace plumbline::study
   CrackFront find_front(const method::BreakableBody<3> &model,
                         const std::vector<analysis::Event> &events);
 
-  /// All of it in space.
+  /// The results in space.
   struct FrontFindings : CommonFindings<3>
   {
     CrackFront front;

@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "geometry/crack_tips.h"
 #include "method/fracture_solver.h"
+#include "physics/crossing_energy.h"
 #include "physics/expression.h"
 #include "scene/origin.h"
 #include "scene/problem.h"
@@ -368,23 +369,18 @@ namespace plumbline::study
     }
 
     /// At which a bond breaks whose ends are both like one node, the smallest of all nodes.
-    double critical_stretch(const scene::Scene &scene, const method::BreakableBody<3> &model,
+    template <int dim>
+    double critical_stretch(const scene::Scene &scene, const method::BreakableBody<dim> &model,
                             double horizon, double trapping)
-    {
-      const physics::Lame lame = scene.material.lame()({});
-      return std::sqrt(*std::min_element(model.toughness.begin(), model.toughness.end()) /
-                       (.6 * horizon * trapping * (3 * lame.lambda + 2 * lame.mu)));
-    }
-    double critical_stretch(const scene::Scene &scene, const GrowthModel &model, double horizon,
-                            double trapping)
     {
       const auto lame = scene.material.lame();
       double smallest = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < model.nodes.size(); ++i)
       {
-        const physics::Lame here = lame(model.nodes[i]);
-        smallest = std::min(smallest, M_PI * model.toughness[i] /
-                                          (3 * horizon * trapping * (here.lambda + here.mu)));
+        const Point<2> here(model.nodes[i][0], model.nodes[i][1]); // in space constants are alike
+        smallest =
+            std::min(smallest, model.toughness[i] /
+                                   (trapping * physics::crossing_energy<dim>(horizon, lame(here))));
       }
       return std::sqrt(smallest);
     }
@@ -466,7 +462,7 @@ namespace plumbline::study
       return found;
     }
 
-    /// What the scene's nodes and bonds do not know of.
+    /// Notes on features that the nodes do not resolve, and on crack tips that lie on bonds.
     std::vector<std::string> find_notes(const scene::Scene &scene, const GrowthModel &model,
                                         double horizon)
     {
@@ -547,11 +543,6 @@ namespace plumbline::study
       }
     }
   } // namespace
-
-  Analysis growth_analysis(const Checkpoints &checkpoints)
-  {
-    return growth_analysis(checkpoints, {});
-  }
 
   Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write)
   {

@@ -27,14 +27,13 @@ namespace plumbline::study
   /// automatic solver is chosen
   GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs = 1);
 
-  /// Quasi-static fracture of a scene (section Fracture) at its one level; of records see
-  /// growth_record. Besides, scalars and texts say what was solved, and how.
-  Analysis growth_analysis(const Checkpoints &checkpoints);
-
-  /// Take the damage of the nodes of a body in space, after each of its moments in turn.
+  /// Take the damage of the nodes of a body in space, after each of its moments in turn; empty:
+  /// nobody does.
   /// @param loads  of all moments so far, this one the last
   using WriteDamage = std::function<void(const std::vector<double> &loads,
                                          const std::vector<dealii::Point<3>> &nodes,
                                          const std::vector<double> &damage)>;
+  /// Quasi-static fracture of a scene (section Fracture) at its one level; of records see
+  /// growth_record. Besides, scalars and texts say what was solved, and how.
   Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write);
 } // namespace plumbline::study

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "geometry/of_dimension.h"
 #include "meshfree/scattered/damage.h"
+#include "physics/crossing_energy.h"
 
 #include <deal.II/base/exceptions.h>
 
@@ -81,18 +82,6 @@ namespace plumbline::meshfree
       return result;
     }
 
-    /// Energy of all bonds across a straight cut of a continuum whose stretches are 1, per length
-    /// or area, where dilatations are dim: ∫∫ (dim λ + 2μ) K r² over the bonds, of K = 3/(πδ³r) in
-    /// the plane and 3/(πδ⁴r) in space. 4β (λ + μ), β = ∫K r⁴ dr = 3δ/(4π), and πβ (3λ + 2μ), β =
-    /// ∫K r⁵ dr = 3δ/(5π).
-    template <int dim>
-    double energy_across(const Kernel<dim> &influence, const physics::Lame &lame)
-    {
-      if (dim == 2)
-        return 4 * (.75 / M_PI * influence.horizon()) * (lame.lambda + lame.mu);
-      return .6 * influence.horizon() * (3 * lame.lambda + 2 * lame.mu);
-    }
-
     template <int dim>
     int box_of(const std::vector<geometry::BoxOf<dim>> &boxes, const Point<dim> &x, double h)
     {
@@ -157,7 +146,8 @@ namespace plumbline::meshfree
       return number;
     }
 
-    /// x and y, by which it is known where a place is to lines, and to what they sweep along z.
+    /// x and y: they determine the position relative to a line, and to the surface it sweeps along
+    /// z.
     template <int dim>
     Point<2> in_plane(const Tensor<1, dim> &x)
     {
@@ -335,7 +325,8 @@ namespace plumbline::meshfree
           box_of(solid.unbreaking, network.nodes[b], network.h) >= 0)
         return endless;
       const physics::Lame lame = materials.mean(a, b);
-      return std::sqrt(toughness / solid.trapping / energy_across(influence, lame));
+      return std::sqrt(toughness / solid.trapping /
+                       physics::crossing_energy<dim>(influence.horizon(), lame));
     }
   } // namespace
 
@@ -451,7 +442,8 @@ namespace plumbline::meshfree
     Assert(steps > 0, dealii::ExcMessage("a normal without a direction"));
     // λ = μ = 1; of each kind of bond |k·normal| go through the line or plane in h or h² times
     // |normal|
-    const double V = cell_volume<dim>(h), first = energy_across(influence, {1, 1});
+    const double V = cell_volume<dim>(h),
+                 first = physics::crossing_energy<dim>(influence.horizon(), {1, 1});
     double sum = 0;
     for (const Half<dim> &half : half_family(rule, influence, h, backend))
     {
