@@ -29,13 +29,14 @@ namespace plumbline::reference
   {
     constexpr double rounding = 1e-9;
     std::array<double, 2> s{};
-    std::array<std::vector<int>, 2> cells; // that hold x along an axis
+    std::array<std::array<int, 3>, 2> cells{}; // that hold x along an axis
     for (unsigned int d = 0; d < 2; ++d)
     {
       s[d] = (x[d] - lattice_.origin()[d]) / lattice_.h();
-      for (const double beside : {0., -rounding, rounding})
-        cells[d].push_back(
-            std::clamp(static_cast<int>(std::floor(s[d] + beside)), 0, lattice_.n_cells()[d] - 1));
+      const std::array<double, 3> beside = {0, -rounding, rounding};
+      for (unsigned int k = 0; k < 3; ++k)
+        cells[d][k] = std::clamp(static_cast<int>(std::floor(s[d] + beside[k])), 0,
+                                 lattice_.n_cells()[d] - 1);
     }
     std::array<int, 2> cell = {cells[0].front(), cells[1].front()};
     bool is_found = lattice_.is_inside(cell[0], cell[1]);
