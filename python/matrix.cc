@@ -75,7 +75,7 @@ namespace plumbline::python
       return made;
     }
 
-    /// Before anything is made at another h: the entries of a matrix with so many nodes, whose rows
+    /// Before anything is made at another h: the entries of a matrix with so many cells, whose rows
     /// reach so far.
     /// @throws InputError  they do not fit into memory
     void require_memory_at(double h, double n_cells, double reach, unsigned int dim,

@@ -240,8 +240,9 @@ namespace plumbline::python
       if (!at.is_none())
         points = to_inner_points(of->problem, at.cast<Doubles>());
       if (!estimate && !points.empty())
-        throw InputError("reference: points are where the error is estimated; omit them, or let "
-                         "estimate = True");
+        throw InputError(
+            "reference: points are given, but estimate = False; write estimate = True, "
+            "or omit points");
       const auto *mesh = of->problem.mesh().get();
       const auto found = to_method(
           method.is_none() ? py::str(mesh != nullptr && mesh->is_triangles() ? "P2" : "Q2")
@@ -389,9 +390,10 @@ namespace plumbline::python
               "What the method says of itself: neighbours, negative weights, moments.")
           .def_property_readonly(
               "estimate", [](const Solved &one) { return to_dict(one.estimate); },
-              "Of reference(): bounds in practice of the L2 error, of averages and field; "
-              "at_points: of the error at its points, shape (n_points,), or None; "
-              "certified_digits.")
+              "Of reference(), bounds in practice (not proven). averages, field: of their L2 "
+              "errors; "
+              "at_points: of the errors at the points given, shape (n_points,), or None; "
+              "certified_digits: digits of the averages that the bound leaves certain.")
           .def(
               "write_vtu",
               [](const Solved &one, const std::string &file) { one.solution.write_vtu(file); },

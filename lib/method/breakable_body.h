@@ -18,8 +18,8 @@ namespace plumbline::method
     std::shared_ptr<QuasistaticFractureModel> body;
     double h = 0; ///< of the lattice [length]
     std::vector<dealii::Point<dim>> nodes;
-    std::vector<double> toughness;                       ///< G of each node [force/length^(dim-1)]
-    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length^(dim-1)]
+    std::vector<double> toughness;                       ///< G of each node [force/length]
+    std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts
     dealii::Point<2> notch_tip;                          ///< in space along z through the body
     bool has_dilatation = false;                         ///< else bonds are all

@@ -27,7 +27,7 @@ namespace plumbline::method
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
         constrained; ///< u in the grips at load 1
     std::function<physics::Lame(const dealii::Point<dim> &)> material;
-    std::function<double(const dealii::Point<dim> &)> toughness; ///< G [force/length^(dim-1)]
+    std::function<double(const dealii::Point<dim> &)> toughness; ///< G [force/length]
     /// Published, none or consistent, see meshfree::SurfaceForces; else the forces have an energy.
     problem::SurfaceTerms surface_terms = problem::SurfaceTerms::uncorrected;
     bool takes_least_toughness = false; ///< of a bond: of samples along it; else its ends' mean
@@ -35,7 +35,7 @@ namespace plumbline::method
     struct Interface
     {
       geometry::Polyline line;
-      double toughness = 0; ///< [force/length^(dim-1)]
+      double toughness = 0; ///< [force/length]
     };
     std::vector<Interface> interfaces = {};
     double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion

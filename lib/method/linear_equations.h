@@ -24,7 +24,8 @@ namespace plumbline::method
     std::vector<dealii::Point<dim>> nodes;
     std::size_t n_free = 0;
     algebra::CsrMatrix rows;        ///< A, shape (n_free, n_nodes) · n_components
-    std::vector<double> load;       ///< M b of the free nodes, shape (n_free · n_components)
+    std::vector<double> load;       ///< b at the free nodes, or b tested by shape functions; shape
+                                    ///< (n_free · n_components)
     std::vector<double> constraint; ///< u of the others, shape (n_constrained · n_components)
     /// Of the cells of free nodes [length^dim], where row i states the equation at node i; empty:
     /// rows are tested by shape functions.

@@ -88,7 +88,7 @@ namespace plumbline::report::page
     if (table.rows.empty())
       return {};
     Data columns = Data::array(), rows = Data::array();
-    std::vector<bool> are_numbers; // the short words among numbers stand as they do
+    std::vector<bool> are_numbers; // a word in a column of numbers is aligned as they are
     for (std::size_t j = 0; j < table.columns.size(); ++j)
     {
       are_numbers.push_back(table.rows.front()[j].is_number);

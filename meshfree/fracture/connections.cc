@@ -14,7 +14,7 @@ namespace plumbline::meshfree
     template <int dim>
     using Directions = std::vector<Tensor<1, dim>>; // orthonormal
 
-    /// What of a vector is across all directions.
+    /// The part of a vector orthogonal to all directions.
     template <int dim>
     Tensor<1, dim> across(const Directions<dim> &directions, Tensor<1, dim> vector)
     {
@@ -23,7 +23,7 @@ namespace plumbline::meshfree
       return vector;
     }
 
-    /// Add one across those there are.
+    /// Append a unit vector orthogonal to the given ones.
     void add_another(Directions<2> &directions)
     {
       Tensor<1, 2> next;
@@ -48,7 +48,7 @@ namespace plumbline::meshfree
       directions.push_back(next / next.norm());
     }
 
-    /// Those that span the same as some vectors of length 1, the last one of them first.
+    /// An orthonormal basis of the span of unit vectors; it begins with the last of them.
     template <int dim>
     Directions<dim> span(const std::vector<Tensor<1, dim>> &vectors)
     {
@@ -163,8 +163,8 @@ namespace plumbline::meshfree
         is_loose_[i] = 1;
   }
 
-  // the last bonds of a node, too few to hold it, carry no force and so do not hold the nodes at
-  // their other ends, which are looked at again; they go on to say where the node is
+  // Bonds that are too few to hold a node carry no force. They do not hold the nodes at their other
+  // ends, which are therefore checked again; they still determine the position of the node itself.
   template <int dim>
   void Connections<dim>::look_at(std::vector<std::size_t> nodes)
   {

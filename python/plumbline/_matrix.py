@@ -29,7 +29,7 @@ class Matrix:
     indptr: np.ndarray   # where rows begin, shape (n_unknowns + 1,), int64
     load: np.ndarray     # shape (n_unknowns,), units of A u
     nodes: np.ndarray    # free nodes in the order of Solution.nodes, then constrained ones, shape
-                         # (n_nodes, dim) [length]; of Galerkin methods places of shape functions
+                         # (n_nodes, dim) [length]; of Galerkin methods support points
     n_unknown_nodes: int     # nodes whose values are unknown: the first ones
     n_components: int        # of u at each node
     constraint: np.ndarray   # u of the constrained nodes, shape ((n_nodes - n_unknown_nodes) *
@@ -147,7 +147,7 @@ def load_matrix(path):
 
 
 def to_matrix(made):
-    """Of the arrays of _core, without copies."""
+    """A Matrix of the arrays that _core returns, without copies."""
     return Matrix(**{**made, "indices": made["indices"].view(np.int32),
                      "indptr": made["indptr"].view(np.int64)})
 
