@@ -391,8 +391,7 @@ namespace plumbline::report
     const Record &record = *grown.front();
     view.answer = verdict(record);
     view.model = model(record);
-    view.omitted =
-        study::left_out_of_growth(study::is_corrected(record), study::is_in_space(record));
+    view.omitted = study::left_out_of_growth(record);
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()), record.key.problem,
                   record.text("end")};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});

@@ -210,22 +210,27 @@ namespace plumbline::study
       return {found.begin(), found.end()};
     }
 
-    double toughness_by_energy(const GrowthFindings &found)
+    /// @param separated  width or area of the crack; 0: there is none
+    template <int dim>
+    void set_toughness(const CommonFindings<dim> &found, double separated, Record &record)
     {
-      return (found.growth.events.back().in_bonds + found.growth.events.back().released) /
-             found.path.width;
+      if (separated == 0)
+        return;
+      double in_parts = 0;
+      for (const BrokenPart &part : found.parts)
+        in_parts += part.toughness * part.length;
+      const Event &last = found.growth.events.back();
+      record.set("G by bonds", in_parts / separated, "force/length");
+      record.set("G by energy", (last.in_bonds + last.released) / separated, "force/length");
     }
 
-    void set_toughness(const GrowthFindings &found, Record &record)
+    /// K = sqrt(G E/(1 - nu^2)), of plane strain.
+    void set_intensity(double plane_modulus, Record &record)
     {
-      double sum = 0;
-      for (const BrokenPart &part : found.parts)
-        sum += part.toughness * part.length;
-      const double by_bonds = sum / found.path.width, by_energy = toughness_by_energy(found);
-      record.set("G by bonds", by_bonds, "force/length");
-      record.set("G by energy", by_energy, "force/length");
-      record.set("K by bonds", std::sqrt(by_bonds * found.plane_modulus));
-      record.set("K by energy", std::sqrt(by_energy * found.plane_modulus));
+      record.set("plane modulus", plane_modulus, "force/length^2");
+      for (const std::string by : {"bonds", "energy"})
+        if (record.has("G by " + by))
+          record.set("K by " + by, std::sqrt(record["G by " + by] * plane_modulus));
     }
 
     void set_lengths(const GrowthFindings &found, Record &record)
@@ -272,20 +277,19 @@ namespace plumbline::study
       record.set("residual", residual);
     }
 
-    /// Loads of the first broken bond and of the first event at which the tip leaves the notch's.
-    void set_beginnings(const GrowthFindings &found, Record &record)
+    /// Loads of the first broken bond and of the first event after which the crack has advanced.
+    /// @param way  of the tip, or the mean over a front, after each event
+    void set_beginnings(const std::vector<Event> &events, const std::vector<double> &way,
+                        Record &record)
     {
-      const std::vector<Event> &events = found.growth.events;
       if (events.empty())
         return;
       record.set("first break", events.front().load);
-      const auto &tips = found.path.tips;
-      const auto moved = std::find_if(tips.begin(), tips.end(),
-                                      [&](const dealii::Point<2> &tip)
-                                      { return tip.distance(found.notch_tip) > 0; });
-      if (moved == tips.end())
+      const auto moved =
+          std::find_if(way.begin(), way.end(), [](double advance) { return advance > 0; });
+      if (moved == way.end())
         return;
-      const std::ptrdiff_t event = moved - tips.begin();
+      const std::ptrdiff_t event = moved - way.begin();
       record.set("first advance", events[static_cast<std::size_t>(event)].load);
       record.set("first advance event", static_cast<double>(event));
     }
@@ -300,32 +304,40 @@ namespace plumbline::study
       record.texts["connected"] = growth.is_separated ? "no" : "yes";
     }
 
-    void add_broken(const std::vector<Event> &events, Record &record)
+    /// Curves of the events and of the bonds that they break.
+    /// @param names, places  further columns, of where the crack is after each event
+    void add_events(const std::vector<Event> &events, const std::vector<std::string> &names,
+                    const std::vector<std::vector<double>> &places, Record &record)
     {
+      std::vector<std::string> columns = {
+          "event", "critical load", "load",     "bonds",    "reaction before", "reaction",
+          "work",  "stored",        "in bonds", "released", "residual",        "factored"};
+      columns.insert(columns.end(), names.begin(), names.end());
+      analysis::Curve all = curve_of(columns);
+      for (std::size_t i = 0; i < events.size(); ++i)
+      {
+        const Event &e = events[i];
+        std::vector<double> row = {static_cast<double>(i),
+                                   e.critical,
+                                   e.load,
+                                   static_cast<double>(e.bonds.size()),
+                                   e.reaction_before,
+                                   e.reaction,
+                                   e.work,
+                                   e.stored,
+                                   e.in_bonds,
+                                   e.released,
+                                   e.residual,
+                                   e.is_factored ? 1. : 0.};
+        row.insert(row.end(), places[i].begin(), places[i].end());
+        add_row(all, row);
+      }
+      record.curves["events"] = std::move(all);
       analysis::Curve broken = curve_of({"event", "bond"});
       for (std::size_t i = 0; i < events.size(); ++i)
         for (const std::size_t bond : events[i].bonds)
           add_row(broken, {static_cast<double>(i), static_cast<double>(bond)});
       record.curves["broken"] = std::move(broken);
-    }
-
-    void add_events(const GrowthFindings &found, Record &record)
-    {
-      analysis::Curve events = curve_of(
-          {"event", "critical load", "load", "bonds", "reaction before", "reaction", "work",
-           "stored", "in bonds", "released", "residual", "factored", "tip x", "tip y", "way"});
-      for (std::size_t i = 0; i < found.growth.events.size(); ++i)
-      {
-        const Event &e = found.growth.events[i];
-        const dealii::Point<2> &tip = found.path.tips[i];
-        add_row(events,
-                {static_cast<double>(i), e.critical, e.load, static_cast<double>(e.bonds.size()),
-                 e.reaction_before, e.reaction, e.work, e.stored, e.in_bonds, e.released,
-                 e.residual, e.is_factored ? 1. : 0., found.origin[0] + tip[0],
-                 found.origin[1] + tip[1], tip.distance(found.notch_tip)});
-      }
-      record.curves["events"] = std::move(events);
-      add_broken(found.growth.events, record);
     }
 
     void add_path(const GrowthFindings &found, Record &record)
@@ -378,19 +390,24 @@ namespace plumbline::study
   {
     const Growth &growth = found.growth;
     const CrackPath &path = found.path;
+    std::vector<double> way;
+    std::vector<std::vector<double>> places;
+    for (const dealii::Point<2> &tip : path.tips)
+    {
+      way.push_back(tip.distance(found.notch_tip));
+      places.push_back({found.origin[0] + tip[0], found.origin[1] + tip[1], way.back()});
+    }
     set_events(growth.events, "force", record);
-    set_beginnings(found, record);
-    record.set("advance", path.tips.empty() ? 0 : path.tips.back().distance(found.notch_tip),
-               "length");
-    if (path.width > 0)
-      set_toughness(found, record);
+    set_beginnings(growth.events, way, record);
+    record.set("advance", way.empty() ? 0 : way.back(), "length");
+    set_toughness(found, path.width, record);
+    set_intensity(found.plane_modulus, record);
     set_lengths(found, record);
-    record.set("plane modulus", found.plane_modulus, "force/length^2");
     record.set("width", path.width, "length");
     record.set("apart", static_cast<double>(path.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired));
     set_end(growth, "force", record);
-    add_events(found, record);
+    add_events(growth.events, {"tip x", "tip y", "way"}, places, record);
     add_path(found, record);
     add_fields(found, record);
     return record;
@@ -409,20 +426,6 @@ namespace plumbline::study
     void add_front(const FrontFindings &found, Record &record)
     {
       const CrackFront &front = found.front;
-      analysis::Curve events = curve_of(
-          {"event", "critical load", "load", "bonds", "reaction before", "reaction", "work",
-           "stored", "in bonds", "released", "residual", "factored", "way", "way min", "way max"});
-      for (std::size_t i = 0; i < found.growth.events.size(); ++i)
-      {
-        const Event &e = found.growth.events[i];
-        const auto [least, most] = std::minmax_element(front.way[i].begin(), front.way[i].end());
-        add_row(events,
-                {static_cast<double>(i), e.critical, e.load, static_cast<double>(e.bonds.size()),
-                 e.reaction_before, e.reaction, e.work, e.stored, e.in_bonds, e.released,
-                 e.residual, e.is_factored ? 1. : 0., mean(front.way[i]), *least, *most});
-      }
-      record.curves["events"] = std::move(events);
-      add_broken(found.growth.events, record);
       analysis::Curve line = curve_of({"moment", "events", "z", "way"}),
                       sides = curve_of({"event", "z", "x0", "y0", "x1", "y1", "joined"});
       for (std::size_t k = 0; k < found.moments.size(); ++k)
@@ -438,21 +441,6 @@ namespace plumbline::study
                    side.ends[1][0], side.ends[1][1], side.is_joined ? 1. : 0.});
       record.curves["front"] = std::move(line);
       record.curves["sides"] = std::move(sides);
-    }
-
-    /// Loads of the first broken bond and of the first event that moves the front.
-    void set_beginnings(const FrontFindings &found, Record &record)
-    {
-      const std::vector<Event> &events = found.growth.events;
-      if (!events.empty())
-        record.set("first break", events.front().load);
-      for (std::size_t i = 0; i < events.size(); ++i)
-        if (mean(found.front.way[i]) > 0)
-        {
-          record.set("first advance", events[i].load);
-          record.set("first advance event", static_cast<double>(i));
-          return;
-        }
     }
 
     /// Of the layer in the middle of the thickness.
@@ -474,29 +462,31 @@ namespace plumbline::study
   Record growth_record(Record record, const FrontFindings &found)
   {
     const Growth &growth = found.growth;
-    set_events(growth.events, "force length", record);
-    set_beginnings(found, record);
-    const std::vector<double> way = growth.events.empty()
-                                        ? std::vector<double>(found.front.z.size(), 0)
-                                        : found.front.way.back();
-    record.set("advance", mean(way), "length");
-    record.set("advance min", *std::min_element(way.begin(), way.end()), "length");
-    record.set("advance max", *std::max_element(way.begin(), way.end()), "length");
-    if (found.front.area > 0)
+    const auto extent = [](const std::vector<double> &of_layers) -> std::vector<double>
     {
-      double sum = 0;
-      for (const BrokenPart &part : found.parts)
-        sum += part.toughness * part.length;
-      record.set("G by bonds", sum / found.front.area, "force/length");
-      record.set("G by energy",
-                 (growth.events.back().in_bonds + growth.events.back().released) / found.front.area,
-                 "force/length");
+      const auto [least, most] = std::minmax_element(of_layers.begin(), of_layers.end());
+      return {mean(of_layers), *least, *most};
+    };
+    std::vector<double> way;
+    std::vector<std::vector<double>> places;
+    for (const std::vector<double> &of_layers : found.front.way)
+    {
+      places.push_back(extent(of_layers));
+      way.push_back(places.back().front());
     }
+    set_events(growth.events, "force length", record);
+    set_beginnings(growth.events, way, record);
+    const std::vector<double> last = places.empty() ? std::vector<double>(3, 0) : places.back();
+    record.set("advance", last[0], "length");
+    record.set("advance min", last[1], "length");
+    record.set("advance max", last[2], "length");
+    set_toughness(found, found.front.area, record);
     record.set("area", found.front.area, "length^2");
     record.set("apart", static_cast<double>(found.front.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired_in_y));
     record.set("unpaired in z", static_cast<double>(found.n_unpaired_in_z));
     set_end(growth, "force length", record);
+    add_events(growth.events, {"way", "way min", "way max"}, places, record);
     add_front(found, record);
     add_moments_and_parts(found.moments, found.parts, record);
     record.curves["phases"] = {{"G", "force/length", {}}};
@@ -535,7 +525,7 @@ namespace plumbline::study
     return all;
   }
 
-  std::vector<std::string> left_out_of_growth(bool is_corrected, bool is_in_space)
+  std::vector<std::string> left_out_of_growth(const Record &record)
   {
     std::vector<std::string> result = {
         "equilibrium at all times: no inertia, rate dependence or heat; the energy released in "
@@ -544,17 +534,19 @@ namespace plumbline::study
         "load",
         "bonds break irreversibly, by their tensile stretch alone; crack faces transmit pressure "
         "only through intact bonds",
-        std::string(is_in_space ? "one lattice: cracks tend to follow its planes"
-                                : "two dimensions, one lattice: cracks tend to follow its rows and "
-                                  "columns") +
+        std::string(is_in_space(record)
+                        ? "one lattice: cracks tend to follow its planes"
+                        : "two dimensions, one lattice: cracks tend to follow its rows and "
+                          "columns") +
             ", the more so the fewer neighbours nodes have (Study/m)",
         "no contact, friction or large rotations; Fracture/stretch = finite uses the finite "
         "stretch of small displacements"};
     result.push_back(
-        is_corrected ? "the energy balance: the surface terms do not derive from an energy"
-                     : "families are incomplete at free surfaces and crack faces: no correction "
-                       "of the dilatation, no terms that make them traction-free "
-                       "(Fracture/surface terms)");
+        is_corrected(record)
+            ? "the energy balance: the surface terms do not derive from an energy"
+            : "families are incomplete at free surfaces and crack faces: no correction "
+              "of the dilatation, no terms that make them traction-free "
+              "(Fracture/surface terms)");
     return result;
   }
 } // namespace plumbline::study

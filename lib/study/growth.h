@@ -175,8 +175,8 @@ namespace plumbline::study
   std::vector<Expectation> check_crack_growth(const Record &record,
                                               const scene::ExpectedSection &expected);
 
-  /// What is not in the model, for reports.
-  std::vector<std::string> left_out_of_growth(bool is_corrected, bool is_in_space = false);
+  /// What is not in the model of a record, for reports.
+  std::vector<std::string> left_out_of_growth(const Record &record);
 
   /// A record is of a body in space.
   bool is_in_space(const Record &record);
