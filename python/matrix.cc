@@ -75,6 +75,12 @@ namespace plumbline::python
       return made;
     }
 
+    void require_length(const std::optional<double> &h)
+    {
+      if (h && !(*h > 0 && std::isfinite(*h)))
+        throw InputError("h = " + std::to_string(*h) + "; give a length above 0, or None");
+    }
+
     /// Before anything is made at another h: the entries of a matrix with so many cells, whose rows
     /// reach so far.
     /// @throws InputError  they do not fit into memory
@@ -91,8 +97,7 @@ namespace plumbline::python
                     const std::optional<double> &h)
     {
       const auto found = to_method(method);
-      if (h && !(*h > 0 && std::isfinite(*h)))
-        throw InputError("h = " + std::to_string(*h) + "; give a length above 0, or None");
+      require_length(h);
       if (h && !given.at_h)
         throw InputError("h = " + std::to_string(*h) +
                          ": this problem is defined on its own mesh only; omit h");
@@ -136,8 +141,7 @@ namespace plumbline::python
                              const std::optional<double> &h)
     {
       const auto found = to_method_in_space(name);
-      if (h && !(*h > 0 && std::isfinite(*h)))
-        throw InputError("h = " + std::to_string(*h) + "; give a length above 0, or None");
+      require_length(h);
       if (h && given.cells)
         throw InputError("h = " + std::to_string(*h) +
                          ": this problem is defined on its own scattered nodes only; omit h");

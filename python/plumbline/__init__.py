@@ -16,9 +16,9 @@ from ._checks import Findings, Weights, check, weights
 from ._matrix import Matrix, load_matrix, matrix
 from ._moduli import moduli, moduli_of_weights
 from . import space
-from ._studies import Record, Records, Study, dispersion, run, stability
+from ._studies import Record, Records, Study, crack, dispersion, grow, run, stability, strip
 
 __all__ = ["Findings", "InputError", "Kernel", "Matrix", "NumericalError", "Problem", "Record",
-           "Records", "Rule", "Solution", "Study", "Weights", "check", "dispersion", "kernels",
+           "Records", "Rule", "Solution", "Study", "Weights", "check", "crack", "dispersion", "grow", "kernels",
            "load_matrix", "matrix", "methods", "moduli", "moduli_of_weights", "reference", "run",
-           "set_threads", "solve", "space", "stability", "weights"]
+           "set_threads", "solve", "space", "stability", "strip", "weights"]

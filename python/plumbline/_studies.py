@@ -1,6 +1,7 @@
 """Studies of scenes as dicts with arrays, from the JSON that the command writes too."""
 import json
 import os
+import tempfile
 
 import numpy as np
 
@@ -101,6 +102,15 @@ def _given(scene, set, methods):
     return os.fspath(scene), changed, rules
 
 
+def _named(scene, set, methods):
+    """As _given, of an analysis that takes no rules in Python."""
+    text, changed, rules = _given(scene, set, methods)
+    if rules:
+        raise ValueError(f"methods: '{rules[0].name}' is a rule in Python, which has no model of "
+                         "fracture; give names of plumbline.methods()")
+    return text, changed, rules
+
+
 def run(scene, *, set=None, methods=None, levels=0):
     """Run a scene, static or in time, as `plumbline run` does, without files.
 
@@ -137,3 +147,53 @@ def dispersion(scene, *, angles=(), directions=(), set=None, methods=None, level
     text, changed, rules = _given(scene, set, methods)
     return _study(_core.dispersion_json(text, changed, rules, levels, list(angles),
                                         list(directions)))
+
+
+def _resumable(analyse, folder):
+    """The study that analyse(folder) returns as text, with a checkpoint in the folder until it has
+    ended; without a folder nothing is kept.
+    """
+    if folder is None:
+        with tempfile.TemporaryDirectory() as own:
+            return _study(analyse(own))
+    os.makedirs(folder, exist_ok=True)
+    study = _study(analyse(os.fspath(folder)))
+    checkpoint = os.path.join(folder, "checkpoint.h5")
+    if os.path.exists(checkpoint):
+        os.remove(checkpoint)
+    return study
+
+
+def grow(scene, *, set=None, methods=None, folder=None):
+    """Quasi-static fracture of a body, bond by bond, as `plumbline grow` does, in two and three
+    dimensions.
+
+    folder    where a checkpoint is kept: after Ctrl-C or a kill the same call goes on from it.
+              None: no checkpoint outlives the call
+
+    Other arguments as of run(); methods are names. Returns a Study whose one record has the critical
+    loads and energies as scalars (G by bonds, G by energy, peak load, advance, ...), the curves
+    "events", "broken" and "sides" (columns), and the field "damage" of each of the "moments".
+    """
+    text, changed, _ = _named(scene, set, methods)
+    return _resumable(lambda own: _core.grow_json(text, changed, own), folder)
+
+
+def crack(scene, *, set=None, methods=None, levels=0, folder=None):
+    """Dynamic fracture of a notched strip of double-well bonds, as `plumbline crack` does: its
+    threshold at each level, the crack's motion at the finest one.
+
+    Arguments as of run() and grow(). Returns a Study; texts "outcome" and "reason" of a record say
+    whether the crack runs, branches or is arrested, curve "samples" has its tip over time.
+    """
+    text, changed, _ = _named(scene, set, methods)
+    return _resumable(lambda own: _core.crack_json(text, changed, levels, own), folder)
+
+
+def strip(scene, *, set=None, methods=None, levels=0):
+    """A stationary crack in Rice's strip by meshfree and Galerkin methods, as `plumbline strip`
+    does. Arguments as of run(); methods are names. Returns a Study: energies of the strip and of
+    its tip by level, limits and their agreement.
+    """
+    text, changed, _ = _named(scene, set, methods)
+    return _study(_core.strip_json(text, changed, levels))

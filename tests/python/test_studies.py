@@ -1,7 +1,10 @@
 """Studies of scenes give the command's numbers, to the last bit."""
+import _thread
 import json
 import os
 import subprocess
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -22,7 +25,8 @@ def without_times(value):
     """What is measured anew in each run: time and memory."""
     if isinstance(value, dict):
         return {key: without_times(one) for key, one in value.items()
-                if key not in ("cost", "setup_seconds", "solve_seconds", "peak_bytes")}
+                if key not in ("cost", "setup_seconds", "solve_seconds", "peak_bytes",
+                               "factor seconds", "update seconds")}
     if isinstance(value, (list, np.ndarray)):
         return [without_times(one) for one in value]
     if isinstance(value, float) and np.isnan(value):
@@ -48,6 +52,50 @@ def test_analyses_give_the_commands_records(root, tmp_path, analysis):
     assert record[name] == record["scalars"][name]["value"]
     assert all(isinstance(column["values"], np.ndarray)
                for one in study.records for curve in one["curves"].values() for column in curve)
+
+
+PLATE = {"Study/h": "1/16", "Study/m": "2"}
+
+
+@pytest.mark.parametrize("analysis, scene, set", [
+    ("grow", "scenes/fracture/plate.prm", PLATE),
+    ("crack", "scenes/griffith/speed.prm", {"Time/final time": "0.3"}),
+    ("strip", "scenes/fracture/strip.prm", {"Methods/names": "FA, DGQ0"})])
+def test_fracture_gives_the_commands_records(root, tmp_path, analysis, scene, set):
+    levels = {} if analysis == "grow" else {"levels": 1}
+    study = getattr(plumbline, analysis)(root / scene, set=set, **levels)
+    said = command(root, tmp_path, analysis, scene, *(["--levels", "1"] if levels else []),
+                   *(word for key, value in set.items() for word in ("--set", f"{key}={value}")))
+    assert len(study.records) > 0 and not any(one["failure"] for one in study.records)
+    assert without_times(study["records"]) == without_times(said["records"])
+
+
+def test_growth_goes_on_from_its_folder(root, tmp_path):
+    """After an interrupt, to the same bits; the folder is empty in the end."""
+    scene, set = root / "scenes/fracture/plate.prm", {**PLATE, "Fracture/checkpoint interval": "1"}
+    whole, = plumbline.grow(scene, set=set).records
+    timer = threading.Timer(.5 * whole["cost"]["solve_seconds"], _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        plumbline.grow(scene, set=set, folder=tmp_path)
+        time.sleep(10)
+    assert (tmp_path / "checkpoint.h5").exists()
+    after, = plumbline.grow(scene, set=set, folder=tmp_path).records
+    assert after["resumed"] > 0 and after["events"] == whole["events"]
+    for name, curve in whole["curves"].items():
+        for column, other in zip(curve, after["curves"][name]):
+            np.testing.assert_array_equal(column["values"], other["values"])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_fracture_needs_a_method_with_bonds(root):
+    mine = plumbline.Rule("mine", lambda xi, area: area)
+    with pytest.raises(ValueError, match="'mine' is a rule in Python"):
+        plumbline.grow(root / "scenes/fracture/plate.prm", methods=[mine])
+    with pytest.raises(ValueError, match="plumbline.grow"):
+        plumbline.run(root / "scenes/fracture/plate.prm")
+    with pytest.raises(ValueError, match="Fracture/toughness"):
+        plumbline.grow(root / SCENE)
 
 
 def test_dispersion_in_space_takes_directions(root, tmp_path):
