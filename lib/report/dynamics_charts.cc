@@ -343,7 +343,7 @@ namespace plumbline::report
                               "shortest step."),
               stored = named("stored", "Stored energy over that at the start",
                              "At the finest level, with all steps."),
-              history = named("history", "Errors over time",
+              history = named("history", "Errors versus time",
                               "Of displacements at the finest level with the shortest step.");
     const study::Axis axis =
         results.trends.empty() ? study::Axis::mesh_size : results.trends.front().axis;

@@ -131,23 +131,23 @@ namespace plumbline::report
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(
-          what + "-samples", "Error of the " + what + " over samples", "samples [1]", error_label,
+          what + "-samples", "Error of the " + what + " versus samples", "samples [1]", error_label,
           "Each line falls at the rate of the sampling rule down to the discretisation error, "
           "which "
           "more samples cannot reduce.");
       fill(results, over_samples, value, samples, by_h);
-      DataChart over_h = empty_chart(what + "-h", "Error of the " + what + " over h",
+      DataChart over_h = empty_chart(what + "-h", "Error of the " + what + " versus h",
                                      "mesh size h [length]", error_label,
                                      "Each line falls at the order of the discretisation down to "
                                      "the sampling error, which finer meshes cannot reduce.");
       over_h.plot.has_slopes = true;
       fill(results, over_h, value, h, by_set);
       DataChart over_time = empty_chart(
-          what + "-cost", "Error of the " + what + " over time", "CPU time [s]", error_label,
+          what + "-cost", "Error of the " + what + " versus CPU time", "CPU time [s]", error_label,
           "All pairs of h and samples. At each CPU time the lowest line has the best h; where "
           "two lines cross, both are equally good.");
       fill(results, over_time, value, seconds, by_h);
-      DataChart over_modes = empty_chart(what + "-modes", "Error of the " + what + " over modes",
+      DataChart over_modes = empty_chart(what + "-modes", "Error of the " + what + " versus modes",
                                          "modes of the field [1]", error_label,
                                          "Each line falls with the variance of the omitted modes, "
                                          "down to the discretisation and sampling errors.");

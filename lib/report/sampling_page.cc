@@ -28,7 +28,7 @@ namespace plumbline::report
         "No exact statistics are known. Errors are differences from the last set at the finest "
         "level "
         "of each method. At the finest level itself they show the effect of samples and modes "
-        "alone; it is therefore left out of the advice and of the charts over h and time.";
+        "alone; it is therefore left out of the advice and of the charts versus h and CPU time.";
 
     const SetStatistics *best(const SamplingResults &results)
     {

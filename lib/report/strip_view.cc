@@ -132,8 +132,8 @@ namespace plumbline::report
                       [&](const Record &record)
                       { return record.key.h == results.records.front().key.h; });
       DataChart chart = is_over_horizon
-                            ? named(slug(quantity), quantity + " over the horizon")
-                            : named(slug(quantity), quantity + " over h, and limits at 0",
+                            ? named(slug(quantity), quantity + " versus the horizon")
+                            : named(slug(quantity), quantity + " versus h, and limits at 0",
                                     "At h = 0: limits by the three finest levels.");
       chart.plot.x_label = is_over_horizon ? "horizon δ [length]" : "mesh size h [length]";
       chart.plot.y_label = quantity + " [" + unit_of(results, quantity) + "]";

@@ -44,7 +44,7 @@ TEST(SampleCommand, tells_mean_and_deviation_and_draws_them)
   EXPECT_LT(sets[1]["mean_error"], .1 * sets[0]["mean_error"].get<double>());
   const std::string page = read(folder / "sample.html");
   expect_found(page, "<svg");
-  expect_found(page, "Error of the mean over samples");
+  expect_found(page, "Error of the mean versus samples");
   for (const char *const name : {"fields.csv", "quantities.csv", "mean-samples.csv"})
     EXPECT_TRUE(fs::exists(folder / "sample" / name)) << name;
   fs::remove_all(folder);
