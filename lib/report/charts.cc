@@ -4,6 +4,7 @@
 #include "report/formats.h"
 #include "report/maps.h"
 #include "report/page_script.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -235,7 +236,9 @@ namespace plumbline::report
       plot.x_label = x_label(results, chart.kind, axis);
       plot.y_label = is_iterations ? "iterations [1]"
                                    : "error: " + error_words(results.decisive_error) +
-                                         " [unit of the solution]";
+                                         (study::is_truncation(results.decisive_error)
+                                              ? " [unit of the load]"
+                                              : " [unit of the solution]");
       // with a fixed mesh errors fall as the horizon grows: no order to compare with
       plot.has_slopes = chart.kind == ChartKind::convergence && axis == study::Axis::mesh_size;
       std::vector<double> places;

@@ -1,6 +1,7 @@
 #include "report/page_parts.h"
 
 #include "report/formats.h"
+#include "study/cheapest.h"
 #include "study/target_words.h"
 #include "study/trend.h"
 
@@ -219,6 +220,7 @@ namespace plumbline::report::page
             {"over", ""},
             {"summary", summary(results, names, is_own)},
             {"has_cards", !cards.empty()},
+            {"relative_to", study::relative_to(results.decisive_error)},
             {"n_more", more.empty() ? Data() : Data(more.size())},
             {"cards", std::move(cards)},
             {"more", std::move(more)}};

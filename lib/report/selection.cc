@@ -91,8 +91,9 @@ namespace plumbline::report
   {
     const auto noise = [&](const study::Record &run)
     {
-      return round_off * study::norm_of_one(results.decisive_error, study::area_of(run)) *
-             (study::size_of(run) > 0 ? study::size_of(run) : 1);
+      const double size = study::size_of(run, results.decisive_error);
+      return round_off *
+             (size > 0 ? size : study::norm_of_one(results.decisive_error, study::area_of(run)));
     };
     std::string best;
     std::size_t most = 0;

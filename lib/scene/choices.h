@@ -76,7 +76,8 @@ namespace plumbline::scene
   {
     nodal,
     averages,
-    field
+    field,
+    truncation ///< no solution: what the exact one leaves of the equations
   };
 
   enum class Norm
@@ -86,7 +87,9 @@ namespace plumbline::scene
     averages_linf,
     averages_l2,
     field_linf,
-    field_l2
+    field_l2,
+    truncation_linf,
+    truncation_l2
   };
   constexpr Quantity quantity(Norm norm)
   {
@@ -152,10 +155,12 @@ namespace plumbline::base
   inline constexpr auto words<scene::Regime> =
       std::array{"m", "delta", "delta-m", "horizon", "variable"};
   template <>
-  inline constexpr auto words<scene::Quantity> = std::array{"nodal", "averages", "field"};
+  inline constexpr auto words<scene::Quantity> =
+      std::array{"nodal", "averages", "field", "truncation"};
   template <>
-  inline constexpr auto words<scene::Norm> = std::array{
-      "nodal Linf", "nodal L2", "averages Linf", "averages L2", "field Linf", "field L2"};
+  inline constexpr auto words<scene::Norm> =
+      std::array{"nodal Linf", "nodal L2", "averages Linf",   "averages L2",
+                 "field Linf", "field L2", "truncation Linf", "truncation L2"};
   template <>
   inline constexpr auto words<scene::Target> =
       std::array{"exact", "local", "reference", "own finest level"};

@@ -35,12 +35,14 @@ namespace plumbline::study
 
   double relative_error(const Record &run, const std::string &error)
   {
-    return run[error] / (norm_of_one(error, area_of(run)) * size_of(run));
+    return run[error] / size_of(run, error);
   }
 
   std::string relative_to(const std::string &error)
   {
     const bool is_l2 = norm_of_one(error, 4) != 1;
+    if (is_truncation(error))
+      return std::string("the largest load") + (is_l2 ? " times the root of the area" : "");
     return std::string("the variation of the solution (maximum minus minimum") +
            (is_l2 ? ", times the root of the area)" : ")");
   }

@@ -111,9 +111,8 @@ namespace plumbline::study
         }
         if (!run.has(error))
           continue;
-        const double unit = norm_of_one(error, area_of(run));
-        trend.size = std::max(trend.size, unit * size_of(run));
-        trend.round_off = std::max(trend.round_off, unit * round_off_of(run));
+        trend.size = std::max(trend.size, size_of(run, error));
+        trend.round_off = std::max(trend.round_off, round_off_of(run, error));
         const LimitProof proof = limit_of(run);
         trend.proof = trend.x.empty() ? proof : weaker(trend.proof, proof);
         trend.x.push_back(coordinate(trend.axis, run.key));

@@ -44,6 +44,12 @@ namespace plumbline::study
     std::string refusal(const Method &method, const scene::Scene &scene, const Capabilities &needed,
                         const Methods &available)
     {
+      const scene::DecisiveError &decisive = scene.study.decisive_error;
+      if (scene::quantity(decisive.norm) == scene::Quantity::truncation &&
+          method.family() != method::MethodFamily::meshfree)
+        return "Study/decisive error = " + decisive.text() +
+               " is of equations at nodes, and those of Galerkin methods hold on average; name "
+               "meshfree rules only, or write a nodal or averages norm";
       return scene::refusal(scene, needed, method.can(), others(method, needed, available));
     }
   } // namespace

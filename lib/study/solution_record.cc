@@ -2,6 +2,7 @@
 
 #include "base/choice.h"
 #include "study/analysis.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +34,25 @@ namespace plumbline::study
     return value_of(record, "variation", 0);
   }
 
-  double round_off_of(const Record &record)
+  namespace
   {
-    return value_of(record, "round-off", 0);
+    /// A number of the record, or of truncation errors another, in the norm of the error.
+    double in_norm_of(const Record &record, const std::string &error, const std::string &scalar,
+                      const std::string &of_truncation)
+    {
+      return norm_of_one(error, area_of(record)) *
+             value_of(record, is_truncation(error) ? of_truncation : scalar, 0);
+    }
+  } // namespace
+
+  double size_of(const Record &record, const std::string &error)
+  {
+    return in_norm_of(record, error, "variation", "largest load");
+  }
+
+  double round_off_of(const Record &record, const std::string &error)
+  {
+    return in_norm_of(record, error, "round-off", "truncation round-off");
   }
 
   double area_of(const Record &record)

@@ -18,8 +18,11 @@ namespace plumbline::study
   /// nothing, as for the operator.
   double size_of(const Record &record);
 
-  /// Errors up to this are round-off, see study/round_off.h; 0: not known.
-  double round_off_of(const Record &record);
+  /// What an error is relative to: size_of() in its norm, or of truncation errors the load.
+  double size_of(const Record &record, const std::string &error);
+
+  /// Errors up to this are round-off, see study/round_off.h and study/truncation.h; 0: not known.
+  double round_off_of(const Record &record, const std::string &error);
 
   /// Of Ω: the L2 norm of a constant 1 is its root; 1 where it is not known [length^2].
   double area_of(const Record &record);

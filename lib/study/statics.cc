@@ -16,6 +16,7 @@
 #include "study/solution_record.h"
 #include "study/statics_in_space.h"
 #include "study/timing.h"
+#include "study/truncation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,11 +159,12 @@ namespace plumbline::study
         const auto found = errors(scene_.study.norms, problem, solution, one.targets);
         for (const auto &[error, value] : found)
           run.set(error, value);
+        enter_truncation(method, scene_.study.norms, problem, run);
         if (options_.has_fields)
           run.fields[field_name] = field_of(problem, solution);
         if (scene_.study.decisive_error.target == scene::Target::finest)
           place_.kept<OwnFinest>(own_finest).keep(run, problem, solution.averages);
-        for (const auto &[error, value] : found)
+        for (const auto &[error, value] : errors_of(run))
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
         const auto points =

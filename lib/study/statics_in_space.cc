@@ -9,6 +9,7 @@
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
 #include "study/solution_record.h"
+#include "study/truncation.h"
 
 #include <algorithm>
 #include <array>
@@ -243,6 +244,7 @@ namespace plumbline::study
                       {
                         const SolutionInSpace solution = analysis::solve(method, one.problem);
                         evaluate(one, solution, record);
+                        enter_truncation(method, scene_.study.norms, one.problem, record);
                         tell_values(method, one, solution, record);
                       });
         }

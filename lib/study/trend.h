@@ -19,6 +19,9 @@ namespace plumbline::study
   /// maxima, the root of Ω's area [length] for L2 norms.
   double norm_of_one(const std::string &error, double area);
 
+  /// An error is by how much a field fails the equations, see study/truncation.h.
+  bool is_truncation(const std::string &error);
+
   /// An error as 'norm | target' is held against this target.
   bool is_against(const std::string &error, scene::Target target);
 

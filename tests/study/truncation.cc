@@ -1,0 +1,154 @@
+// Consistency and stability: what the exact solution leaves of a rule's equations, in what order it
+// falls, and the nodal error that follows from it.
+#include "study/truncation.h"
+
+#include "scene/problem.h"
+#include "study/solution_record.h"
+#include "tests/study/space_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace plumbline;
+using namespace plumbline::study;
+
+namespace
+{
+  using in_space::Settings;
+
+  StudyResults results_of(const Settings &more)
+  {
+    Settings settings = {{"Kernel/type", "linear-decay"},
+                         {"Kernel/limit", "-1/2 Laplace"},
+                         {"Problem/solution", "sin(3*x)*cos(2*y)"},
+                         {"Study/regime", "delta"},
+                         {"Study/m", "3"},
+                         {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
+                         {"Study/norms", "nodal Linf, truncation Linf, truncation L2"},
+                         {"Study/decisive error", "truncation Linf | exact"}};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return in_space::run(scene::parse_scene("test.prm", "", settings));
+  }
+
+  const Trend &trend_of(const StudyResults &results, const std::string &method,
+                        const std::string &error = "truncation Linf | exact")
+  {
+    return *std::find_if(results.trends.begin(), results.trends.end(),
+                         [&](const Trend &one)
+                         { return one.method == method && one.error == error; });
+  }
+
+  std::string message_of(const Settings &settings)
+  {
+    try
+    {
+      (void)results_of(settings);
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+} // namespace
+
+// Yang & Yin, sections 4.2.2 and 5.1: at a fixed m the error in the second moments stays, which
+// IPA-AC has; corrected to degree 2 what is left is of order h^2, to degree 4 of order h^4.
+TEST(Truncation, falls_at_a_fixed_ratio_for_compatible_rules_alone)
+{
+  const StudyResults results =
+      results_of({{"Methods/names", "FA, PA-AC, IPA-AC, IPA-AC-R2, IPA-AC-R4"}});
+  for (const std::string name : {"FA", "PA-AC", "IPA-AC"})
+  {
+    EXPECT_EQ(trend_of(results, name).outcome, Outcome::stalls) << name;
+    EXPECT_EQ(trend_of(results, name, "truncation L2 | exact").outcome, Outcome::stalls) << name;
+  }
+  for (const auto &[name, order] : {std::pair("IPA-AC-R2", 2.), {"IPA-AC-R4", 4.}})
+  {
+    EXPECT_EQ(trend_of(results, name).outcome, Outcome::converges) << name;
+    EXPECT_NEAR(trend_of(results, name).rate, order, .1) << name;
+    EXPECT_NEAR(trend_of(results, name, "truncation L2 | exact").rate, order, .1) << name;
+  }
+}
+
+// Ibid., lemma 4.3: O(h^2/delta^2) at a fixed horizon.
+TEST(Truncation, of_ipa_ac_is_of_order_two_at_a_fixed_horizon)
+{
+  const StudyResults results =
+      results_of({{"Methods/names", "IPA-AC"}, {"Study/regime", "m"}, {"Study/horizon", "0.4"}});
+  EXPECT_EQ(trend_of(results, "IPA-AC").outcome, Outcome::converges);
+  EXPECT_NEAR(trend_of(results, "IPA-AC").rate, 2, .3);
+}
+
+// A quadratic has a truncation error that is the same at all nodes, and so its error is that times
+// Poisson's torsion function, whose maximum on the unit square is .0736713 (of -Laplace e = 1).
+TEST(Truncation, and_the_inverse_give_the_nodal_error)
+{
+  constexpr double torsion = 2 * .0736713; // of -1/2 Laplace
+  const StudyResults results =
+      results_of({{"Methods/names", "FA, IPA-AC-R2"}, {"Problem/solution", "x^2 + y^2"}});
+  for (const Record &record : results.records)
+  {
+    const double tau = record["truncation Linf | exact"], error = record["nodal Linf | exact"];
+    EXPECT_NEAR(record["largest load"], 2, 1e-9); // -1/2 Laplace of it
+    EXPECT_NEAR(record["truncation L2 | exact"], tau, record["truncation round-off"] + 1e-9 * tau);
+    if (record.key.method == "IPA-AC-R2")
+    {
+      EXPECT_LT(tau, record["truncation round-off"]);
+      EXPECT_LT(record["truncation round-off"], 1e-10);
+      continue;
+    }
+    EXPECT_GT(tau, .05); // FA's second moments at m = 3
+    // lemma 4.2: ‖A⁻¹‖ <= a²/∫C ξ_1², a half the width and the horizon
+    const double a = .5 + record.key.horizon;
+    EXPECT_LT(error, a * a * tau);
+    if (record.key.level == 3)
+    {
+      EXPECT_NEAR(error, torsion * tau, .15 * torsion * tau);
+    }
+  }
+}
+
+TEST(Truncation, is_found_in_space_too)
+{
+  const StudyResults results = in_space::run(in_space::make_scene(
+      {{"Kernel/type", "linear-decay"},
+       {"Kernel/limit", "-1/2 Laplace"},
+       {"Problem/solution", "x^2 + y*z"},
+       {"Methods/names", "FA, IPA-AC-R2, Q1"},
+       {"Study/regime", "delta"},
+       {"Study/m", "2"},
+       {"Study/h", "1/4, 1/8"},
+       {"Study/norms", "nodal Linf, averages L2, truncation Linf, truncation L2"}}));
+  // FA's second moment over the ball's, which is 1: ∫ c (1 - r/δ) ξ_1² = 4π c δ^5 / 90
+  double moment = 0;
+  for (int k = -2; k <= 2; ++k)
+    for (int j = -2; j <= 2; ++j)
+      for (int i = -2; i <= 2; ++i)
+        moment += std::max(0., 1 - std::sqrt(i * i + j * j + k * k) / 2) * i * i;
+  moment *= 90 / (4 * M_PI * 32);
+  for (const Record &record : results.records)
+  {
+    ASSERT_EQ(record.has("truncation Linf | exact"), record.key.method != "Q1");
+    if (record.key.method == "FA")
+    {
+      EXPECT_NEAR(record["truncation Linf | exact"], 1 - moment, 1e-9);
+    }
+    if (record.key.method == "IPA-AC-R2")
+    {
+      EXPECT_LT(record["truncation Linf | exact"], record["truncation round-off"]);
+    }
+  }
+}
+
+TEST(Truncation, is_of_known_solutions_and_equations_at_nodes)
+{
+  const auto expect = [](const Settings &settings, const std::string &words)
+  { EXPECT_NE(message_of(settings).find(words), std::string::npos) << message_of(settings); };
+  expect({{"Methods/names", "FA, Q1"}}, "those of Galerkin methods hold on average");
+  expect({{"Methods/names", "FA"},
+          {"Reference/method", "Q2"},
+          {"Study/decisive error", "truncation L2 | reference"}},
+         "use the target exact or local");
+}
