@@ -52,7 +52,7 @@ namespace plumbline::reference
           can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_)
           can.insert({Capability::double_well, Capability::periodic, Capability::line});
-        if (n_vertices_ == 4 && has_one_family())
+        if (n_vertices_ == 4 && degree_ <= 2)
           can.insert(Capability::space);
         return can;
       }
@@ -96,7 +96,10 @@ namespace plumbline::reference
       std::unique_ptr<method::DiscretisationInSpace>
       discretise_in_space(const problem::Problem<3> &problem) const override
       {
-        return discretise_on_box(problem, AxisShapes(is_continuous_, degree_));
+        const AxisShapes shapes(is_continuous_, degree_);
+        if (shapes.families().size() == 1)
+          return discretise_on_box(problem, shapes);
+        return discretise_by_families(problem, shapes);
       }
       const method::StripSolver *strip_solver() const override
       {
@@ -120,13 +123,12 @@ namespace plumbline::reference
         if (!size.is_lattice())
           return expected_mesh_bytes(size, n_vertices_, is_continuous_, degree_);
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
-        return method::expected_lattice_bytes(size, n_axis * n_axis, size.n_components,
+        const unsigned int n_families = n_axis * n_axis * (size.depth > 0 ? n_axis : 1);
+        return method::expected_lattice_bytes(size, n_families, size.n_components,
                                               size.reach() / size.level.h + 1);
       }
 
     private:
-      bool has_one_family() const { return degree_ == (is_continuous_ ? 1 : 0); }
-
       unsigned int n_vertices_;
       bool is_continuous_;
       unsigned int degree_;

@@ -19,6 +19,10 @@ namespace plumbline::reference
   std::unique_ptr<method::BoxDiscretisation> discretise_on_box(const problem::Problem<3> &problem,
                                                                const AxisShapes &shapes);
 
+  /// On a box in space, for all shapes: free are those whose support lies in Ω.
+  std::unique_ptr<method::DiscretisationInSpace>
+  discretise_by_families(const problem::Problem<3> &problem, const AxisShapes &shapes);
+
   /// With one axis: motions of double wells.
   /// @pre shapes are continuous
   std::unique_ptr<method::Discretisation> discretise_on_line(const problem::Problem<2> &problem,
