@@ -272,7 +272,8 @@ namespace plumbline::python
     auto method = to_method(py::str(name));
     if (method->can().count(method::Capability::space) == 0)
       throw InputError("method '" + name +
-                       "' is for two dimensions only; choose a meshfree rule, Q1 or DGQ0");
+                       "' is for two dimensions only; choose a meshfree rule, Q1, Q2, DGQ0, "
+                       "DGQ1 or DGQ2");
     return method;
   }
 

@@ -303,7 +303,7 @@ namespace plumbline::python
               "Gradient of u at points in the domain, shape (n, 3) [length]: shape (n, 3), of "
               "three "
               "components (n, 3, 3) with du_c/dx_d at [:, c, d] [u/length]. Exact in the cell that "
-              "holds the point; for Q1 only.")
+              "holds the point; for Q1 and Q2 only.")
           .def_property_readonly(
               "cost",
               [](const SolvedInSpace &one)

@@ -79,8 +79,7 @@ namespace plumbline::algebra
               for (unsigned int from_t = 0; from_t < n_axis; ++from_t)
                 for (int k = -reach; k <= reach; ++k)
                 {
-                  const double phase =
-                      M_PI * p / n * (k + waves[t].place() - waves[s].place());
+                  const double phase = M_PI * p / n * (k + waves[t].place() - waves[s].place());
                   const double wave = waves[s].is_odd == waves[t].is_odd ? std::cos(phase)
                                       : waves[s].is_odd                  ? std::sin(phase)
                                                                          : -std::sin(phase);
@@ -289,10 +288,9 @@ namespace plumbline::algebra
               for (unsigned int t = 0; t < n_families; ++t)
               {
                 const auto &S = parts_[s].along, &T = parts_[t].along;
-                block(s, t) =
-                    layer(S[2] * n_axis + T[2],
-                          ((S[1] * n_axis + T[1]) * (n_[1] + 1) + p2) * along[0].rows() +
-                              (S[0] * n_axis + T[0]) * (n_[0] + 1) + p1);
+                block(s, t) = layer(S[2] * n_axis + T[2],
+                                    ((S[1] * n_axis + T[1]) * (n_[1] + 1) + p2) * along[0].rows() +
+                                        (S[0] * n_axis + T[0]) * (n_[0] + 1) + p1);
               }
             add_inverse_of(block, {p1, p2, p3});
           }
@@ -311,10 +309,9 @@ namespace plumbline::algebra
             continue;
           double *const sum = field_.data() + part.start,
                         *const difference =
-                            field_.data() +
-                            parts_[static_cast<std::size_t>(&part - parts_.data()) +
-                                   (partner - s) * step]
-                                .start;
+                            field_.data() + parts_[static_cast<std::size_t>(&part - parts_.data()) +
+                                                   (partner - s) * step]
+                                                .start;
           for (std::size_t i = 0; i < part.size(); ++i)
           {
             const double a = sum[i], b = difference[i];
@@ -362,8 +359,7 @@ namespace plumbline::algebra
       {
         for (unsigned int s = 0; s < n_families; ++s)
           for_each_row(s,
-                       [&](std::size_t place, std::size_t row)
-                       {
+                       [&](std::size_t place, std::size_t row) {
                          std::copy_n(input.begin() + c * n_of_component + place, parts_[s].n[0],
                                      field_.data() + row);
                        });

@@ -34,14 +34,14 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None
 
 
 def solve(problem, method):
-    """Solve a space.Problem by a meshfree rule, "Q1" or "DGQ0": a space.Solution."""
+    """Solve a space.Problem by a meshfree rule or "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2": a space.Solution."""
     return _core.solve_in_space(problem, method)
 
 
 def matrix(problem, method, h=None):
     """The discrete operator of a method on a space.Problem, with its load and nodes.
 
-    method  a meshfree rule, "Q1" or "DGQ0"
+    method  a meshfree rule or "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2"
     h       side of cubes other than the problem's own [length]; not with scattered nodes
 
     Returns a plumbline.Matrix, whose help gives shapes, units, the sign, and the order of unknowns.

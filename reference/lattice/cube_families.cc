@@ -34,10 +34,9 @@ namespace plumbline::reference
     {
       for (unsigned int c = 0; c < nodes.n_components; ++c)
         for (unsigned int family = 0; family < nodes.n_families(); ++family)
-          geometry::for_each_index(
-              {-margin, -margin, -margin},
-              {nodes.n[0] + margin, nodes.n[1] + margin, nodes.n[2] + margin},
-              [&](const Index &at) { visit(c, family, at); });
+          geometry::for_each_index({-margin, -margin, -margin},
+                                   {nodes.n[0] + margin, nodes.n[1] + margin, nodes.n[2] + margin},
+                                   [&](const Index &at) { visit(c, family, at); });
     }
 
     /// Whether a node is so near to Ω that a free one or the average of a cell needs its value. A
@@ -105,9 +104,8 @@ namespace plumbline::reference
     /// The maximal boxes of cells in Ω.
     std::vector<geometry::CubeRange> covering_boxes(const geometry::CubeLattice &lattice)
     {
-      return lattice.is_box()
-                 ? std::vector<geometry::CubeRange>{{{0, 0, 0}, lattice.n_cells()}}
-                 : geometry::maximal_boxes(lattice.mask(), lattice.n_cells());
+      return lattice.is_box() ? std::vector<geometry::CubeRange>{{{0, 0, 0}, lattice.n_cells()}}
+                              : geometry::maximal_boxes(lattice.mask(), lattice.n_cells());
     }
 
     /// Couplings of one component between free nodes.
@@ -133,8 +131,8 @@ namespace plumbline::reference
                     const double value = stencil(s, t, k[0], k[1], k[2]);
                     if (value == 0 || !nodes.free(t, there))
                       return;
-                    rows.column.push_back(number[t * nodes.n_positions() +
-                                                 geometry::number_within(there, nodes.n)]);
+                    rows.column.push_back(
+                        number[t * nodes.n_positions() + geometry::number_within(there, nodes.n)]);
                     rows.value.push_back(value);
                   });
             rows.start.push_back(rows.column.size());
@@ -149,8 +147,7 @@ namespace plumbline::reference
       GalerkinByFamilies(const problem::Problem<3> &problem, const AxisShapes &shapes)
           : lattice_(problem.lattice), shapes_(shapes),
             nodes_(geometry::free_families(lattice_, shapes.families(), problem.n_components)),
-            stencil_(
-                galerkin_stencil(problem.kernel, problem.h(), shapes, problem.dilatation)),
+            stencil_(galerkin_stencil(problem.kernel, problem.h(), shapes, problem.dilatation)),
             backend_(problem.settings.solver.operator_backend),
             limit_(method::prove_galerkin(problem))
       {
@@ -221,9 +218,8 @@ namespace plumbline::reference
       return points;
     }
 
-    physics::AxisFunctional GalerkinByFamilies::load_functional(unsigned int axis,
-                                                                unsigned int family,
-                                                                int position) const
+    physics::AxisFunctional
+    GalerkinByFamilies::load_functional(unsigned int axis, unsigned int family, int position) const
     {
       constexpr unsigned int n_points = 6;
       const auto &gauss = physics::gauss(n_points);
@@ -252,11 +248,10 @@ namespace plumbline::reference
           for (unsigned int d = 0; d < 3; ++d)
             for (int i = 0; i < nodes_.n[d]; ++i)
               functionals[d].push_back(load_functional(d, nodes_.along(family)[d], i));
-          const auto first = nodes_.is_free.begin() +
-                             static_cast<std::ptrdiff_t>(family * nodes_.n_positions());
+          const auto first =
+              nodes_.is_free.begin() + static_cast<std::ptrdiff_t>(family * nodes_.n_positions());
           const auto values = field.apply(
-              c, functionals,
-              {first, first + static_cast<std::ptrdiff_t>(nodes_.n_positions())});
+              c, functionals, {first, first + static_cast<std::ptrdiff_t>(nodes_.n_positions())});
           value = std::copy(values.begin(), values.end(), value);
         }
       return result;
@@ -272,8 +267,8 @@ namespace plumbline::reference
                     [&](unsigned int c, unsigned int family, const Index &at)
                     {
                       const bool is_needed = !nodes_.free(family, at) && is_near(family, at);
-                      values.push_back(
-                          is_needed ? problem.constraint.value(place(family, at), c) : 0);
+                      values.push_back(is_needed ? problem.constraint.value(place(family, at), c)
+                                                 : 0);
                       if (is_given != nullptr)
                         is_given->push_back(is_needed ? 1 : 0);
                     });
@@ -317,8 +312,8 @@ namespace plumbline::reference
             for (unsigned int c = 0; c < nodes_.n_components; ++c)
               result.nodal.push_back(around.middle[c] + u[c * n_of_component + i]);
           });
-      const auto field = std::make_shared<const CubeField>(lattice_, shapes_,
-                                                           merge(nodes_, u, around, margin));
+      const auto field =
+          std::make_shared<const CubeField>(lattice_, shapes_, merge(nodes_, u, around, margin));
       result.averages = field->averages();
       result.value = [field](const Point &x, unsigned int component)
       { return field->value(x, component); };
@@ -342,9 +337,10 @@ namespace plumbline::reference
     method::LinearEquations<3>
     GalerkinByFamilies::equations(const problem::Problem<3> &problem) const
     {
-      method::StencilRows made = method::make_rows(
-          stencil_, {nodes_.n, nodes_.n_families(), nodes_.n_components,
-                     [&](unsigned int family, const Index &at) { return nodes_.free(family, at); }});
+      method::StencilRows made =
+          method::make_rows(stencil_, {nodes_.n, nodes_.n_families(), nodes_.n_components,
+                                       [&](unsigned int family, const Index &at)
+                                       { return nodes_.free(family, at); }});
       method::LinearEquations<3> result;
       result.n_components = nodes_.n_components;
       result.n_free = made.n_free;
@@ -356,9 +352,9 @@ namespace plumbline::reference
           [&](unsigned int family, const Index &at)
           {
             for (unsigned int c = 0; c < nodes_.n_components; ++c)
-              result.load.push_back(over_nodes[(c * nodes_.n_families() + family) *
-                                                   nodes_.n_positions() +
-                                               geometry::number_within(at, nodes_.n)]);
+              result.load.push_back(
+                  over_nodes[(c * nodes_.n_families() + family) * nodes_.n_positions() +
+                             geometry::number_within(at, nodes_.n)]);
           });
       for (std::size_t k = made.n_free; k < result.nodes.size(); ++k)
         for (unsigned int c = 0; c < result.n_components; ++c)

@@ -10,8 +10,8 @@
 namespace plumbline::reference
 {
   CubeField::CubeField(geometry::CubeLattice lattice, AxisShapes shapes, std::vector<double> values)
-      : lattice_(std::move(lattice)), shapes_(std::move(shapes)),
-        n_(lattice_.n_cells()), values_(std::move(values))
+      : lattice_(std::move(lattice)), shapes_(std::move(shapes)), n_(lattice_.n_cells()),
+        values_(std::move(values))
   {
     for (int &n : n_)
       n += 2;
@@ -39,22 +39,22 @@ namespace plumbline::reference
                       n_block = static_cast<std::size_t>(n_[0]) * n_[1] * n_[2];
     const auto n_local = static_cast<int>(shapes_.n_local());
     double result = 0;
-    geometry::for_each_index(
-        {0, 0, 0}, {n_local, n_local, n_local},
-        [&](const std::array<int, 3> &a)
-        {
-          std::size_t block = component;
-          std::array<int, 3> at{};
-          double factor = 1;
-          for (unsigned int d = 3; d-- > 0;)
-          {
-            const auto owner = shapes_.owner(static_cast<unsigned int>(a[d]));
-            block = block * n_axis + owner.family;
-            at[d] = cell[d] + owner.shift + 1;
-            factor *= factors[d][a[d]];
-          }
-          result += factor * values_[block * n_block + geometry::number_within(at, n_)];
-        });
+    geometry::for_each_index({0, 0, 0}, {n_local, n_local, n_local},
+                             [&](const std::array<int, 3> &a)
+                             {
+                               std::size_t block = component;
+                               std::array<int, 3> at{};
+                               double factor = 1;
+                               for (unsigned int d = 3; d-- > 0;)
+                               {
+                                 const auto owner = shapes_.owner(static_cast<unsigned int>(a[d]));
+                                 block = block * n_axis + owner.family;
+                                 at[d] = cell[d] + owner.shift + 1;
+                                 factor *= factors[d][a[d]];
+                               }
+                               result += factor *
+                                         values_[block * n_block + geometry::number_within(at, n_)];
+                             });
     return result;
   }
 

@@ -138,7 +138,7 @@ def problem_in_space(kind):
 
 
 @pytest.mark.parametrize("kind, methods", [
-    ("scalar", ("FA", "LAMMPS", "PA-AC", "IPA-AC-R2", "Q1", "DGQ0")), ("tensor", ("FA", "IPA-AC-R2", "Q1", "DGQ0")),
+    ("scalar", ("FA", "LAMMPS", "PA-AC", "IPA-AC-R2", "Q1", "Q2", "DGQ0", "DGQ1")), ("tensor", ("FA", "IPA-AC-R2", "Q1", "Q2", "DGQ0")),
     ("solid", ("FA", "IPA-AC-R2", "Q1")), ("nodes", ("FA", "IPA-AC-R2"))])
 def test_solutions_in_space_fulfil_the_equations(kind, methods):
     problem = problem_in_space(kind)

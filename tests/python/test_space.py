@@ -136,7 +136,7 @@ def test_kernels_have_their_moments():
      "two numbers"),
     (lambda k: space.weights("FB", k, .5), "FB"),
     (lambda k: space.weights("FA", k, 0), "above 0"),
-    (lambda k: space.solve(space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.25, solution="x"), "Q2"),
+    (lambda k: space.solve(space.Problem(k, box=((0, 0, 0), (1, 1, 1)), h=.25, solution="x"), "Q3"),
      "for two dimensions only"),
     (lambda k: space.check(np.zeros((4, 2)), np.ones(4), [0], [1], [1.], k,
                            box=((0, 0, 0), (1, 1, 1))), "shape"),

@@ -36,9 +36,8 @@ namespace
   double largest_entry(const algebra::Stencil &stencil)
   {
     double largest = 0;
-    stencil.for_each_offset(
-        [&](int k1, int k2, int k3)
-        { largest = std::max(largest, std::abs(stencil(0, 0, k1, k2, k3))); });
+    stencil.for_each_offset([&](int k1, int k2, int k3)
+                            { largest = std::max(largest, std::abs(stencil(0, 0, k1, k2, k3))); });
     return largest;
   }
 
@@ -57,30 +56,30 @@ namespace
   {
     const auto n = static_cast<int>(sum.size());
     double result = 0;
-    geometry::for_each_index(
-        {0, 0, 0}, {n, n, n},
-        [&](const Index &i)
-        {
-          geometry::for_each_index(
-              {0, 0, 0}, {n, n, n},
-              [&](const Index &j)
-              {
-                unsigned int s = a, t = b;
-                double factor = 1;
-                Index offset{};
-                for (unsigned int d = 3; d-- > 0;)
-                {
-                  const Term &left = sum[i[d]], &right = sum[j[d]];
-                  s = s * n_axis + left.family;
-                  t = t * n_axis + right.family;
-                  factor *= left.factor * right.factor;
-                  offset[d] = k[d] + right.cell - left.cell;
-                  if (std::abs(offset[d]) > stencil.reach())
-                    return; // beyond the horizon
-                }
-                result += factor * stencil(s, t, offset[0], offset[1], offset[2]);
-              });
-        });
+    geometry::for_each_index({0, 0, 0}, {n, n, n},
+                             [&](const Index &i)
+                             {
+                               geometry::for_each_index(
+                                   {0, 0, 0}, {n, n, n},
+                                   [&](const Index &j)
+                                   {
+                                     unsigned int s = a, t = b;
+                                     double factor = 1;
+                                     Index offset{};
+                                     for (unsigned int d = 3; d-- > 0;)
+                                     {
+                                       const Term &left = sum[i[d]], &right = sum[j[d]];
+                                       s = s * n_axis + left.family;
+                                       t = t * n_axis + right.family;
+                                       factor *= left.factor * right.factor;
+                                       offset[d] = k[d] + right.cell - left.cell;
+                                       if (std::abs(offset[d]) > stencil.reach())
+                                         return; // beyond the horizon
+                                     }
+                                     result +=
+                                         factor * stencil(s, t, offset[0], offset[1], offset[2]);
+                                   });
+                             });
     return result;
   }
 
@@ -155,9 +154,9 @@ TEST(CubeFamilies, have_the_entries_of_a_quadrature_over_pairs_of_cells)
   const Kernel<3> scalar = scalar_kernel(delta), tensor = tensor_kernel(delta);
   const auto of_scalar = galerkin_stencil(scalar, 1, discontinuous);
   for (const auto &[s, t] : {std::pair{1u, 6u}, {0u, 5u}})
-    EXPECT_NEAR(of_scalar(s, t, k[0], k[1], k[2]) /
-                    pair_of_cells(scalar, 0, 0, discontinuous, {s % 2, s / 2 % 2, s / 4},
-                                  {t % 2, t / 2 % 2, t / 4}, k),
+    EXPECT_NEAR(of_scalar(s, t, k[0], k[1], k[2]) / pair_of_cells(scalar, 0, 0, discontinuous,
+                                                                  {s % 2, s / 2 % 2, s / 4},
+                                                                  {t % 2, t / 2 % 2, t / 4}, k),
                 1, 1e-9);
   // the function of degree 2 in the middle of the cell, which is that of one cell alone
   const auto of_tensor = galerkin_stencil(tensor, 1, quadratic);
@@ -212,8 +211,7 @@ TEST(CubeFamilies, take_fields_of_the_space_to_the_exact_force)
            : c == 1 ? 3 * x[2] * x[2] - x[0] * x[1]
                     : x[1] * x[1] + x[0];
   };
-  for (const AxisShapes &shapes :
-       {AxisShapes(true, 2), AxisShapes(false, 1), AxisShapes(false, 2)})
+  for (const AxisShapes &shapes : {AxisShapes(true, 2), AxisShapes(false, 1), AxisShapes(false, 2)})
     for (const bool is_scalar : {true, false})
     {
       const Kernel<3> kernel = is_scalar ? scalar_kernel(.25) : tensor_kernel(.15);
@@ -268,8 +266,8 @@ namespace
         }
       }
       const auto n_axis = static_cast<unsigned int>(nodes_.axis.size());
-      const std::size_t block = component * nodes_.n_families() + along[0] +
-                                n_axis * (along[1] + n_axis * along[2]);
+      const std::size_t block =
+          component * nodes_.n_families() + along[0] + n_axis * (along[1] + n_axis * along[2]);
       return sign * values_[block * nodes_.n_positions() + geometry::number_within(at, nodes_.n)];
     }
 

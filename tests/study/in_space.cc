@@ -415,7 +415,7 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
        "cracks and strips yet"},
       {{{"Study/decisive error", "field L2 | exact"}, {"Study/norms", "field L2"}},
        "write a nodal or averages norm"},
-      {{{"Methods/names", "Q2"}}, "take Q1, DGQ0"},
+      {{{"Methods/names", "Q3"}}, "take Q1, Q2, DGQ0"},
       {{{"Problem/solution", "x*w"}}, "in x, y, z, pi, delta"},
       {{{"Quadrature/tolerance", "1e-3"}}, "has no effect here"},
       {{{"Geometry/checks", "5"}}, "has no effect here"},
