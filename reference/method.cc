@@ -6,6 +6,8 @@
 #include "reference/local/local_limit.h"
 #include "reference/mesh/discretisation.h"
 #include "reference/strip/cracked_strip.h"
+#include "reference/tetrahedra/discretisation.h"
+#include "reference/tetrahedra/face_potential.h"
 
 #include <algorithm>
 
@@ -33,9 +35,12 @@ namespace plumbline::reference
       {
         return std::string(is_continuous_ ? "continuous" : "discontinuous") +
                " Galerkin of degree " + std::to_string(degree_) +
-               (n_vertices_ == 4 ? " on quadrilaterals; entries exact to round-off on lattices and "
-                                   "axis-aligned rectangles"
-                                 : " on triangles") +
+               (n_vertices_ == 4
+                    ? " on quadrilaterals; entries exact to round-off on lattices and "
+                      "axis-aligned rectangles"
+                    : std::string(" on triangles") +
+                          (has_one_family() ? ", in three dimensions on six tetrahedra per cube"
+                                            : "")) +
                (by_quadrature_ ? ", all entries by quadrature: to chart exact ones against" : "") +
                (degree_ == 0 ? " (not asymptotically compatible)" : "");
       }
@@ -52,9 +57,20 @@ namespace plumbline::reference
           can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_)
           can.insert({Capability::double_well, Capability::periodic, Capability::line});
-        if (n_vertices_ == 4 && degree_ <= 2)
+        if (!by_quadrature_ && (n_vertices_ == 4 ? degree_ <= 2 : has_one_family()))
           can.insert(Capability::space);
         return can;
+      }
+      method::Capabilities can_in_space() const override
+      {
+        using method::Capability;
+        if (n_vertices_ == 4 || can().count(Capability::space) == 0)
+          return can();
+        return {Capability::lattice, Capability::nonlocal, Capability::space};
+      }
+      std::string why_not_in_space(const physics::Kernel<3> &kernel) const override
+      {
+        return n_vertices_ == 4 ? "" : FacePotential::refuse(kernel);
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
@@ -96,6 +112,8 @@ namespace plumbline::reference
       std::unique_ptr<method::DiscretisationInSpace>
       discretise_in_space(const problem::Problem<3> &problem) const override
       {
+        if (n_vertices_ == 3)
+          return discretise_on_tetrahedra(problem, is_continuous_);
         const AxisShapes shapes(is_continuous_, degree_);
         if (shapes.families().size() == 1)
           return discretise_on_box(problem, shapes);
@@ -122,6 +140,8 @@ namespace plumbline::reference
       {
         if (!size.is_lattice())
           return expected_mesh_bytes(size, n_vertices_, is_continuous_, degree_);
+        if (n_vertices_ == 3)
+          return expected_bytes_on_tetrahedra(size, is_continuous_);
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
         const unsigned int n_families = n_axis * n_axis * (size.depth > 0 ? n_axis : 1);
         return method::expected_lattice_bytes(size, n_families, size.n_components,

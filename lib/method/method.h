@@ -50,6 +50,13 @@ namespace plumbline::method
     /// What a scene may need of it; see study/refusal.h.
     virtual Capabilities can() const { return all_capabilities(); }
 
+    /// What a scene in space may need of it.
+    virtual Capabilities can_in_space() const { return can(); }
+
+    /// Empty if the method can do problems in space with this kernel, else the reason that is none
+    /// of its capabilities.
+    virtual std::string why_not_in_space(const physics::Kernel<3> &) const { return {}; }
+
     /// Empty if the method can do the problem, of any case and level, else the reason that is none
     /// of its capabilities.
     virtual std::string why_not(const problem::Problem<2> &) const { return {}; }
@@ -62,8 +69,8 @@ namespace plumbline::method
     discretise(const problem::Problem<2> &problem,
                const base::Communicator &communicator = base::Communicator::all()) const = 0;
 
-    /// The same on a box in space.
-    /// @pre  can() has Capability::space
+    /// The same on a union of boxes in space.
+    /// @pre  can() has Capability::space, and why_not_in_space() of the kernel is empty
     virtual std::unique_ptr<DiscretisationInSpace>
     discretise_in_space(const problem::Problem<3> &problem) const;
 

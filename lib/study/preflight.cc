@@ -31,6 +31,15 @@ namespace plumbline::study
                      scene::join(names, ", ") + base::did_you_mean(name, names));
   }
 
+  namespace
+  {
+    /// In space `all` leaves out methods on tetrahedra, which take far more memory than others.
+    bool has_its_nodes(const scene::Scene &scene, const Method &method)
+    {
+      return !scene.domain.is_in_space() || method.can().count(method::Capability::lattice) > 0;
+    }
+  } // namespace
+
   Methods named_methods(const scene::Scene &scene, const Methods &available,
                         const std::function<bool(const Method &)> &is_meant)
   {
@@ -45,7 +54,7 @@ namespace plumbline::study
         add(find_method(available, name, "Methods/names"));
       else
         for (const auto &method : available)
-          if (method->is_in_all() && is_meant(*method))
+          if (method->is_in_all() && has_its_nodes(scene, *method) && is_meant(*method))
             add(method);
     return named;
   }

@@ -11,9 +11,14 @@ namespace plumbline::study
   {
     using method::Capabilities;
 
+    Capabilities capabilities_for(const Capabilities &needed, const Method &method)
+    {
+      return needed.count(method::Capability::space) > 0 ? method.can_in_space() : method.can();
+    }
+
     bool can_do(const Method &method, const Capabilities &needed)
     {
-      const Capabilities can = method.can();
+      const Capabilities can = capabilities_for(needed, method);
       return std::includes(can.begin(), can.end(), needed.begin(), needed.end());
     }
 
@@ -50,7 +55,8 @@ namespace plumbline::study
         return "Study/decisive error = " + decisive.text() +
                " is of equations at nodes, and those of Galerkin methods hold on average; name "
                "meshfree rules only, or write a nodal or averages norm";
-      return scene::refusal(scene, needed, method.can(), others(method, needed, available));
+      return scene::refusal(scene, needed, capabilities_for(needed, method),
+                            others(method, needed, available));
     }
   } // namespace
 
@@ -65,7 +71,10 @@ namespace plumbline::study
   std::string refusal_in_space(const Method &method, const scene::Scene &scene,
                                const Methods &available)
   {
-    return refusal(method, scene, scene::needs(scene), available);
+    const std::string why = refusal(method, scene, scene::needs(scene), available);
+    return why.empty() ? method.why_not_in_space(scene::make_kernel_in_space(
+                             scene, scene.study.series.front().levels.front().horizon))
+                       : why;
   }
 
   bool can_solve(const Method &method, const problem::Problem<2> &problem)

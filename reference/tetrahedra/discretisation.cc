@@ -1,0 +1,170 @@
+#include "reference/tetrahedra/discretisation.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "method/limit_proof.h"
+#include "method/linear_equations.h"
+#include "method/sparse_discretisation.h"
+#include "reference/tetrahedra/face_potential.h"
+#include "reference/tetrahedra/field.h"
+#include "reference/tetrahedra/repeated_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using dealii::Point;
+
+    /// Of entries, beyond which the error is some 1e-5 of the diagonal.
+    constexpr unsigned int refinement = 1;
+
+    class GalerkinOnTetrahedra : public method::DiscretisationInSpace,
+                                 public method::HasLinearEquations<3>
+    {
+    public:
+      GalerkinOnTetrahedra(const problem::Problem<3> &problem, bool is_continuous)
+          : lattice_(problem.lattice)
+      {
+        const int n_layers = layers_within(problem.horizon(), problem.h());
+        space_ = std::make_shared<const TetrahedralSpace>(
+            std::make_shared<const TetrahedralMesh>(six_per_cube(lattice_, n_layers)),
+            is_continuous);
+        if (space_->n_free() == 0)
+          throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
+        const RepeatedRows entries(problem.kernel, problem.h(), is_continuous, refinement);
+        method::PartitionedRows rows = method::part(entries.on(*space_, lattice_), n_unknowns());
+        free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
+        constrained_ = std::move(rows.constrained);
+        options_.solver = problem.settings.solver.linear_solver;
+        options_.iteration = problem.settings.solver.iteration;
+        describe(problem, entries);
+      }
+
+      std::size_t n_unknowns() const override { return space_->n_free(); }
+
+      Data data(const problem::Problem<3> &problem) const override
+      {
+        // the operator does not see a constant, but the solver's tolerance and rounding would
+        std::vector<double> around = constraint_values(problem);
+        const auto [low, high] = std::minmax_element(around.begin(), around.end());
+        const double middle = around.empty() ? 0 : *low + (*high - *low) / 2;
+        for (double &value : around)
+          value -= middle;
+        Data result;
+        const std::vector<double> load = tested_load(problem.load, *space_);
+        result.load.reinit(static_cast<unsigned int>(load.size()));
+        std::copy(load.begin(), load.end(), result.load.begin());
+        method::subtract_constrained(constrained_, around, result.load);
+        result.field = [this, around = std::move(around), middle](const Vector &u)
+        { return field(u, around, middle); };
+        return result;
+      }
+
+      method::LinearEquations<3> equations(const problem::Problem<3> &problem) const override
+      {
+        method::LinearEquations<3> result;
+        for (std::size_t dof = 0; dof < space_->n_dofs(); ++dof)
+          result.nodes.push_back(space_->support(dof));
+        result.n_free = space_->n_free();
+        result.rows = method::join(*free_, constrained_);
+        result.load = tested_load(problem.load, *space_);
+        result.constraint = constraint_values(problem);
+        return result;
+      }
+
+      std::unique_ptr<algebra::LinearSystem> tangent() const override
+      {
+        return std::make_unique<algebra::SparseSystem>(free_, options_,
+                                                       base::Communicator::alone());
+      }
+
+      method::Diagnostics diagnostics() const override { return diagnostics_; }
+
+    private:
+      /// The constraint at the unknowns that free ones see, 0 at others.
+      std::vector<double> constraint_values(const problem::Problem<3> &problem) const
+      {
+        std::vector<double> values(space_->n_dofs() - space_->n_free());
+        std::vector<char> is_reached(values.size());
+        for (const unsigned int column : constrained_.column)
+          is_reached[column] = 1;
+        const TetrahedralMesh &mesh = space_->mesh();
+        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+          for (unsigned int corner = 0; corner < 4; ++corner)
+            if (const unsigned int dof = space_->dof(cell, corner);
+                mesh.is_inside[cell] != 0 && dof >= space_->n_free())
+              is_reached[dof - space_->n_free()] = 1; // averages are of it
+        for (std::size_t k = 0; k < values.size(); ++k)
+          if (is_reached[k] != 0)
+            values[k] = problem.constraint.value(space_->support(space_->n_free() + k), 0);
+        return values;
+      }
+
+      method::FieldInSpace field(const Vector &u, const std::vector<double> &around,
+                                 double middle) const
+      {
+        std::vector<double> values(u.begin(), u.end());
+        values.insert(values.end(), around.begin(), around.end());
+        for (double &value : values)
+          value += middle;
+        method::FieldInSpace result;
+        const auto n = static_cast<std::ptrdiff_t>(space_->n_free());
+        for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
+          result.nodes.push_back(space_->support(dof));
+        result.nodal.assign(values.begin(), values.begin() + n);
+        const auto field = std::make_shared<const TetrahedralField>(space_, std::move(values));
+        result.averages = field->averages(lattice_);
+        result.value = [field](const Point<3> &x, unsigned int) { return field->value(x); };
+        if (space_->is_continuous())
+          result.gradient = [field](const Point<3> &x, unsigned int) { return field->gradient(x); };
+        return result;
+      }
+
+      void describe(const problem::Problem<3> &problem, const RepeatedRows &entries)
+      {
+        diagnostics_.n_neighbours = static_cast<unsigned int>(
+            (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
+        if (space_->is_continuous())
+          diagnostics_.limit = method::prove_galerkin(problem);
+        const RepeatedRows coarser(problem.kernel, problem.h(), space_->is_continuous(),
+                                   refinement - 1);
+        diagnostics_.notes.push_back(
+            "entries by quadrature over pairs of faces; a coarser rule changes them by " +
+            base::to_text(entries.difference(coarser), 1) + " of the diagonal at most" +
+            (space_->is_continuous() ? ", and linear fields are exact with any rule" : ""));
+      }
+
+      geometry::CubeLattice lattice_;
+      std::shared_ptr<const TetrahedralSpace> space_;
+      std::shared_ptr<const algebra::CsrMatrix> free_;
+      algebra::CsrMatrix constrained_;
+      algebra::SparseOptions options_;
+      method::Diagnostics diagnostics_;
+    };
+  } // namespace
+
+  std::unique_ptr<method::DiscretisationInSpace>
+  discretise_on_tetrahedra(const problem::Problem<3> &problem, bool is_continuous)
+  {
+    if (const std::string reason = FacePotential::refuse(problem.kernel); !reason.empty())
+      throw InputError(reason);
+    return std::make_unique<GalerkinOnTetrahedra>(problem, is_continuous);
+  }
+
+  double expected_bytes_on_tetrahedra(const method::ProblemSize &size, bool is_continuous)
+  {
+    // entries of 12 bytes, for a while whole and parted; cells of the mesh; both measured
+    constexpr double of_entry = 20, of_cell = 100;
+    const double reach = size.reach() / size.level.h, n_types = is_continuous ? 1 : 6,
+                 wider = is_continuous ? 2 : 1.2,
+                 n_cubes = size.extents[0] * size.extents[1] * size.depth,
+                 n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
+                         (size.depth + 2 * reach),
+                 n_columns = 4 * M_PI / 3 * std::pow(reach + wider, 3) * n_types;
+    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell;
+  }
+} // namespace plumbline::reference

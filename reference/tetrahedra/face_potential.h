@@ -1,0 +1,60 @@
+#pragma once
+
+#include "physics/kernel.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::reference
+{
+  /// The radial functions that turn double integrals of a scalar kernel over tetrahedra into double
+  /// integrals over their faces. Lengths are in horizons, and γ = ρ(r) for r < 1 and 0 beyond. With
+  ///   r Λ = ∫_r^1 t γ (t - r) dt,      ΔΛ = γ - m₀ δ,
+  ///   r Ψ = ∫_r^1 t γ (t - r)³/6 dt,   ΔΔΨ = γ - m₀ δ - κ Δδ,
+  /// where m₀ = 4π ∫ t² γ dt, κ = (2π/3) ∫ t⁴ γ dt is the diffusion constant of the local limit,
+  /// and δ is Dirac's distribution: (r f)'' = r Δf for radial f, and Λ and Ψ are like m₀/(4π r) and
+  /// κ/(4π r) at 0. Both vanish for r >= 1: Λ like (1 - r)², Ψ like (1 - r)⁴, where γ does not.
+  ///
+  /// For constants φ_i on cells, ∇φ_i is a layer -n on their faces, and for continuous linear φ_i,
+  /// Δφ_i is a layer with the jump of the normal derivative. So, for bounded supports,
+  ///   ½∬γ (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) = Σ_F Σ_G n_i(F)·n_j(G) ∬_{F×G} Λ(|x - y|)
+  ///                                          = κ ∫∇φ_i·∇φ_j - Σ_F Σ_G J_i(F) J_j(G) ∬_{F×G} Ψ.
+  class FacePotential
+  {
+  public:
+    enum class Kind
+    {
+      harmonic,   ///< Λ
+      biharmonic, ///< Ψ
+    };
+
+    /// @param kernel  see refuse()
+    FacePotential(const physics::Kernel<3> &kernel, Kind kind);
+
+    /// Why there is no such function of a kernel, and the remedy; empty: there is.
+    static std::string refuse(const physics::Kernel<3> &kernel);
+
+    /// At most as many points as one call of sum() takes.
+    static constexpr unsigned int most_points = 64;
+
+    /// Σ weights f(r) at n points. [1]
+    /// @param squares  r² > 0
+    double sum(const double *squares, const double *weights, unsigned int n) const;
+
+    /// Where it is not smooth, in horizons; ascending, the last is 1.
+    std::vector<double> ends() const;
+
+    double diffusion() const { return diffusion_; } ///< κ, in units of the horizon [1]
+
+  private:
+    /// For r < end: inverse / r + Σ powers[k] r^k.
+    struct Part
+    {
+      double end = 1, inverse = 0;
+      std::vector<double> powers;
+    };
+
+    std::vector<Part> parts_;
+    double diffusion_ = 0;
+  };
+} // namespace plumbline::reference

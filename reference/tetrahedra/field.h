@@ -1,0 +1,43 @@
+#pragma once
+
+#include "geometry/search.h"
+#include "problem/in_space.h"
+#include "reference/tetrahedra/space.h"
+
+#include <mutex>
+
+namespace plumbline::reference
+{
+  /// A function of a space on tetrahedra.
+  class TetrahedralField
+  {
+  public:
+    /// @param values  of all unknowns
+    TetrahedralField(std::shared_ptr<const TetrahedralSpace> space, std::vector<double> values);
+
+    /// In the closed domain Ω. Thread safe.
+    /// @throws NumericalError  a point outside Ω
+    double value(const dealii::Point<3> &x) const;
+
+    /// In a cell that contains x. Thread safe.
+    /// @throws NumericalError  a point outside Ω
+    dealii::Tensor<1, 3> gradient(const dealii::Point<3> &x) const;
+
+    /// Over the cells of a lattice, each of which is a union of cells of the mesh.
+    std::vector<double> averages(const geometry::CubeLattice &lattice) const;
+
+  private:
+    /// A cell of Ω that contains x, and the values of its corners' linear functions there.
+    std::pair<std::size_t, std::array<double, 4>> place(const dealii::Point<3> &x) const;
+    void make_search() const;
+
+    std::shared_ptr<const TetrahedralSpace> space_;
+    std::vector<double> values_;
+    mutable std::once_flag is_search_made_;  ///< which few fields need
+    mutable std::vector<std::size_t> inner_; ///< cells of Ω
+    mutable std::unique_ptr<const geometry::BoxSearch<3>> search_;
+  };
+
+  /// ∫ b φ_i of the free unknowns over Ω, by a rule of degree 5 on each cell.
+  std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space);
+} // namespace plumbline::reference

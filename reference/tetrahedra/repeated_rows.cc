@@ -1,0 +1,132 @@
+#include "reference/tetrahedra/repeated_rows.h"
+
+#include "reference/tetrahedra/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using Position = std::array<int, 3>;
+
+    /// Where unknowns are in a mesh of six tetrahedra per cube: one for each vertex, or six for
+    /// each cube.
+    class Places
+    {
+    public:
+      Places(const geometry::CubeLattice &lattice, int n_layers, bool is_continuous)
+          : n_types_(is_continuous ? 1 : 6)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          n_[d] = lattice.n_cells()[d] + 2 * n_layers + (is_continuous ? 1 : 0);
+      }
+
+      const Position &n() const { return n_; }
+      std::size_t n_types() const { return n_types_; }
+
+      /// The number of a vertex or a cell.
+      std::size_t number(const Position &at, std::size_t type) const
+      {
+        return geometry::number_within(at, n_) * n_types_ + type;
+      }
+
+    private:
+      Position n_{};
+      std::size_t n_types_;
+    };
+  } // namespace
+
+  int layers_within(double horizon, double h)
+  {
+    constexpr double rounding = 1e-9;
+    return static_cast<int>(std::ceil(horizon / h - rounding));
+  }
+
+  RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
+                             unsigned int refinement)
+      : is_continuous_(is_continuous), n_layers_(layers_within(kernel.horizon(), h))
+  {
+    const double side = is_continuous ? 2 * h : h; // with one free vertex, or six free cells
+    const geometry::CubeLattice lattice(
+        {{{dealii::Point<3>(), dealii::Point<3>(side, side, side)}}, {}}, h);
+    const TetrahedralSpace space(
+        std::make_shared<const TetrahedralMesh>(six_per_cube(lattice, n_layers_)), is_continuous);
+    const Places places(lattice, n_layers_, is_continuous);
+    const int own = n_layers_ + (is_continuous ? 1 : 0);
+    const algebra::CsrMatrix matrix =
+        assemble_by_faces(space, kernel, places.n_types(), refinement);
+
+    std::vector<Entry> of_dof(space.n_dofs());
+    geometry::for_each_index({0, 0, 0}, places.n(),
+                             [&](const Position &at)
+                             {
+                               for (std::size_t type = 0; type < places.n_types(); ++type)
+                                 of_dof[space.dof_at(places.number(at, type))] = {
+                                     {at[0] - own, at[1] - own, at[2] - own}, type, 0};
+                             });
+    rows_.resize(places.n_types());
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      for (std::size_t k = matrix.start[row]; k < matrix.start[row + 1]; ++k)
+      {
+        rows_[of_dof[row].type].push_back(of_dof[matrix.column[k]]);
+        rows_[of_dof[row].type].back().value = matrix.value[k];
+      }
+  }
+
+  algebra::CsrMatrix RepeatedRows::on(const TetrahedralSpace &space,
+                                      const geometry::CubeLattice &lattice) const
+  {
+    const Places places(lattice, n_layers_, is_continuous_);
+    algebra::CsrMatrix matrix;
+    matrix.start.push_back(0);
+    std::vector<std::pair<unsigned int, double>> sorted;
+    const auto add_row = [&](const Position &at, const std::vector<Entry> &row)
+    {
+      sorted.clear();
+      for (const auto &[offset, type, value] : row)
+        sorted.emplace_back(space.dof_at(places.number(
+                                {at[0] + offset[0], at[1] + offset[1], at[2] + offset[2]}, type)),
+                            value);
+      std::sort(sorted.begin(), sorted.end());
+      for (const auto &[column, value] : sorted)
+      {
+        matrix.column.push_back(column);
+        matrix.value.push_back(value);
+      }
+      matrix.start.push_back(matrix.column.size());
+    };
+    // free unknowns are numbered in the order of their vertices and cells
+    geometry::for_each_index({0, 0, 0}, places.n(),
+                             [&](const Position &at)
+                             {
+                               for (std::size_t type = 0; type < places.n_types(); ++type)
+                                 if (space.dof_at(places.number(at, type)) < space.n_free())
+                                   add_row(at, rows_[type]);
+                             });
+    return matrix;
+  }
+
+  double RepeatedRows::difference(const RepeatedRows &other) const
+  {
+    std::map<std::tuple<std::size_t, Position, std::size_t>, double> changes;
+    double largest = 0, worst = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+    {
+      for (const auto &[offset, type, value] : rows_[row])
+      {
+        changes[{row, offset, type}] += value;
+        largest = std::max(largest, std::abs(value));
+      }
+      for (const auto &[offset, type, value] : other.rows_[row])
+        changes[{row, offset, type}] -= value;
+    }
+    for (const auto &[place, change] : changes)
+      worst = std::max(worst, std::abs(change));
+    return worst / largest;
+  }
+} // namespace plumbline::reference

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "algebra/csr_matrix.h"
+#include "physics/kernel.h"
+#include "reference/tetrahedra/space.h"
+
+namespace plumbline::reference
+{
+  /// Layers of cubes as wide as the horizon.
+  int layers_within(double horizon, double h);
+
+  /// The rows that assemble_by_faces makes of a mesh of six tetrahedra per cube. Translations map
+  /// the unknowns of one cube onto those of another, so that the rows of one vertex, or of the six
+  /// cells of one cube, are all that there is to integrate.
+  class RepeatedRows
+  {
+  public:
+    /// @param refinement  see FacePairs
+    RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
+                 unsigned int refinement);
+
+    /// Those of the free unknowns.
+    /// @param space  on six_per_cube(lattice, layers_within(horizon, h)), of the same kind
+    algebra::CsrMatrix on(const TetrahedralSpace &space,
+                          const geometry::CubeLattice &lattice) const;
+
+    /// The largest difference of two entries, relative to the largest entry.
+    double difference(const RepeatedRows &other) const;
+
+  private:
+    /// An entry of a row, relative to the row's own vertex or cube.
+    struct Entry
+    {
+      std::array<int, 3> offset{};
+      std::size_t type = 0; ///< of a cube's cell
+      double value = 0;
+    };
+
+    bool is_continuous_;
+    int n_layers_;
+    std::vector<std::vector<Entry>> rows_; ///< by type
+  };
+} // namespace plumbline::reference

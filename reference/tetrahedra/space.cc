@@ -1,0 +1,115 @@
+#include "reference/tetrahedra/space.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    /// A side of a cell; those of one face have the same key.
+    struct Side
+    {
+      std::array<unsigned int, 3> key{}; ///< vertices, ascending
+      std::size_t cell = 0;
+      unsigned int opposite = 0; ///< the corner that is not in it
+    };
+
+    std::vector<Side> sides_of(const TetrahedralMesh &mesh)
+    {
+      std::vector<Side> sides;
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+        for (unsigned int opposite = 0; opposite < 4; ++opposite)
+        {
+          Side side{{}, cell, opposite};
+          for (unsigned int corner = 0, k = 0; corner < 4; ++corner)
+            if (corner != opposite)
+              side.key[k++] = mesh.cells[cell][corner];
+          std::sort(side.key.begin(), side.key.end());
+          sides.push_back(side);
+        }
+      std::sort(sides.begin(), sides.end(),
+                [](const Side &a, const Side &b)
+                { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
+      return sides;
+    }
+
+    void add_jump(SpaceFace &face, unsigned int dof, double value)
+    {
+      const auto found =
+          std::find_if(face.jumps.begin(), face.jumps.end(),
+                       [dof](const SpaceFace::Jump &jump) { return jump.dof == dof; });
+      if (found == face.jumps.end())
+        face.jumps.push_back({dof, value});
+      else
+        found->value += value;
+    }
+  } // namespace
+
+  TetrahedralSpace::TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh,
+                                     bool is_continuous)
+      : mesh_(std::move(mesh)), is_continuous_(is_continuous)
+  {
+    std::vector<char> is_free = mesh_->is_inside;
+    if (is_continuous_)
+    {
+      is_free.assign(mesh_->vertices.size(), 1);
+      for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
+        for (const unsigned int vertex : mesh_->cells[cell])
+          if (mesh_->is_inside[cell] == 0)
+            is_free[vertex] = 0;
+    }
+    number_.resize(is_free.size());
+    support_.resize(is_free.size());
+    n_free_ = static_cast<std::size_t>(std::count(is_free.begin(), is_free.end(), 1));
+    unsigned int free = 0, other = static_cast<unsigned int>(n_free_);
+    for (std::size_t k = 0; k < is_free.size(); ++k)
+    {
+      number_[k] = is_free[k] != 0 ? free++ : other++;
+      dealii::Point<3> &place = support_[number_[k]];
+      if (is_continuous_)
+        place = mesh_->vertices[k];
+      else
+        for (const unsigned int vertex : mesh_->cells[k])
+          place += mesh_->vertices[vertex] / 4;
+    }
+  }
+
+  std::vector<SpaceFace> make_faces(const TetrahedralSpace &space)
+  {
+    const std::vector<Side> sides = sides_of(space.mesh());
+    std::vector<SpaceFace> faces;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+    {
+      const Side &side = sides[k];
+      const auto slopes = gradients(space.mesh(), side.cell);
+      const dealii::Tensor<1, 3> outward = -slopes[side.opposite] / slopes[side.opposite].norm();
+      if (k == 0 || side.key != sides[k - 1].key)
+        faces.push_back({side.key, outward, {}});
+      SpaceFace &face = faces.back();
+      if (!space.is_continuous())
+        add_jump(face, space.dof(side.cell, 0), outward * face.normal > 0 ? 1 : -1);
+      else
+        for (unsigned int corner = 0; corner < 4; ++corner)
+          add_jump(face, space.dof(side.cell, corner), -slopes[corner] * outward);
+    }
+    return faces;
+  }
+
+  std::array<dealii::Tensor<1, 3>, 4> gradients(const TetrahedralMesh &mesh, std::size_t cell)
+  {
+    const double volume = determinant(mesh, cell);
+    std::array<dealii::Tensor<1, 3>, 4> result;
+    for (unsigned int corner = 1; corner < 4; ++corner)
+    {
+      const auto edge = [&](unsigned int to)
+      {
+        return mesh.vertices[mesh.cells[cell][(corner - 1 + to) % 3 + 1]] -
+               mesh.vertices[mesh.cells[cell][0]];
+      };
+      result[corner] = cross_product_3d(edge(1), edge(2)) / volume;
+      result[0] -= result[corner];
+    }
+    return result;
+  }
+} // namespace plumbline::reference

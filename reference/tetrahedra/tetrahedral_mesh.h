@@ -1,0 +1,29 @@
+#pragma once
+
+#include "geometry/cube_lattice.h"
+
+#include <array>
+#include <vector>
+
+namespace plumbline::reference
+{
+  /// A conforming mesh of tetrahedra that fills Ω and its collar.
+  struct TetrahedralMesh
+  {
+    std::vector<dealii::Point<3>> vertices;         ///< [length]
+    std::vector<std::array<unsigned int, 4>> cells; ///< of positive volume in this order
+    std::vector<char> is_inside;                    ///< the cell is in Ω, else in the collar
+  };
+
+  /// Six times the volume of a tetrahedron, > 0 in the order of TetrahedralMesh. [length^3]
+  double determinant(const TetrahedralMesh &mesh, std::size_t cell);
+
+  /// Six tetrahedra for each cube, all around its diagonal from the lower to the upper corner: the
+  /// points with coordinates in the same order (Freudenthal 1942, Kuhn 1960). Translations by h
+  /// along an axis map this mesh onto itself.
+  /// @param n_layers  of cubes around the bounding box of Ω
+  /// Vertex (i, j, k), counted from the lower corner of these cubes, is number i + n (j + m k),
+  /// with n and m vertices along x and y; the cells of cube (i, j, k) are 6 c ... 6 c + 5 where c
+  /// is its number, counted alike.
+  TetrahedralMesh six_per_cube(const geometry::CubeLattice &lattice, int n_layers);
+} // namespace plumbline::reference

@@ -1,0 +1,128 @@
+// Galerkin methods on tetrahedra, from the scene to verdicts.
+#include "tests/study/space_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline;
+  using namespace plumbline::study;
+  using namespace plumbline::study::in_space;
+} // namespace
+
+TEST(StaticsOnTetrahedra, are_exact_at_vertices_for_quadratic_fields)
+{
+  // second moments are those of the local limit on any lattice, whatever the quadrature
+  const std::string quadratic = "x^2 - 2*y*z + 3*z^2 + x - 1";
+  for (const Settings &settings :
+       {Settings{{"Study/m", "2.3"}, {"Kernel/type", "1/r"}},
+        Settings{{"Study/m", "2"}, {"Domain/holes", "1/4,1/2,1/2 : 1/2,3/4,1"}}})
+  {
+    const auto results = run(make_scene(with(
+        settings, {{"Methods/names", "P1"}, {"Problem/solution", quadratic}, {"Study/h", "1/8"}})));
+    ASSERT_EQ(results.records.front().failure, "");
+    EXPECT_LT(results.records.front()["nodal Linf | exact"], 1e-11) << settings.front().value;
+  }
+}
+
+TEST(StaticsOnTetrahedra, have_exact_averages_for_linear_fields)
+{
+  const auto results = run(make_scene({{"Problem/solution", "3*x + 2*y - z"},
+                                       {"Methods/names", "P1"},
+                                       {"Study/m", "2"},
+                                       {"Study/h", "1/8"}}));
+  for (const Record &record : results.records)
+    EXPECT_LT(record["averages L2 | exact"], 1e-12);
+}
+
+TEST(StaticsOnTetrahedra, converge_like_those_on_cubes)
+{
+  const auto results = run(make_scene(
+      {{"Methods/names", "P1, DGP0, Q1, DGQ0"}, {"Study/m", "2"}, {"Study/h", "1/4, 1/8, 1/16"}}));
+  std::map<std::string, std::vector<double>> errors, averages;
+  for (const Record &record : results.records)
+  {
+    ASSERT_EQ(record.failure, "");
+    errors[record.key.method].push_back(record["nodal Linf | exact"]);
+    averages[record.key.method].push_back(record["averages L2 | exact"]);
+  }
+  EXPECT_NEAR(std::log2(errors["P1"][1] / errors["P1"][2]), 2, .25);
+  EXPECT_NEAR(std::log2(averages["P1"][1] / averages["P1"][2]), 2, .25);
+  EXPECT_NEAR(errors["P1"][2] / errors["Q1"][2], 1, .5);
+  // constants on cells are not compatible on either, and stay far away
+  for (const std::string method : {"DGP0", "DGQ0"})
+    EXPECT_LT(std::log2(errors[method][1] / errors[method][2]), .6) << method;
+}
+
+TEST(StaticsOnTetrahedra, may_be_the_reference_with_an_estimate_that_bounds_the_error)
+{
+  const auto results = run(make_scene({{"Study/regime", "m"},
+                                       {"Study/horizon", "1/4"},
+                                       {"Study/h", "1/6"},
+                                       {"Domain/boxes", "0,0,0 : 1,1,1/2"},
+                                       {"Methods/names", "P1"},
+                                       {"Reference/method", "P1"},
+                                       {"Study/decisive error", "averages L2 | reference"}}));
+  ASSERT_EQ(results.references.size(), 1u);
+  const double error = results.records.front()["averages L2 | exact"];
+  EXPECT_LT(error, results.references.front().estimate);
+  EXPECT_GT(error, results.references.front().estimate / 10);
+}
+
+TEST(StaticsOnTetrahedra, say_how_entries_are_made_and_what_theory_says)
+{
+  const auto results =
+      run(make_scene({{"Methods/names", "P1"}, {"Study/m", "2"}, {"Study/h", "1/8"}}));
+  const Record &record = results.records.front();
+  EXPECT_TRUE(std::any_of(record.notes.begin(), record.notes.end(),
+                          [](const std::string &note)
+                          { return note.find("pairs of faces") != std::string::npos; }));
+}
+
+TEST(MethodsOnTetrahedra, are_refused_where_they_have_no_entries)
+{
+  const Settings p1 = {{"Methods/names", "P1"}};
+  EXPECT_EQ(message_of(p1), "");
+  EXPECT_EQ(message_of({{"Methods/names", "DGP0"}}), "");
+  const auto message = [&](const Settings &more) { return message_of(with(p1, more)); };
+  const auto has = [](const std::string &text, const std::string &part)
+  { return text.find(part) != std::string::npos; };
+  EXPECT_TRUE(has(message({{"Kernel/type", "bond-tensor"},
+                           {"Kernel/limit", "Navier"},
+                           {"Problem/solution", "x, y, z"}}),
+                  "scalar kernels"));
+  EXPECT_TRUE(
+      has(message({{"Kernel/type", "gaussian"}, {"Kernel/width", ".5"}}), "sums of powers"));
+  for (const std::string name : {"P2", "DGP1", "P1-quadrature"})
+    EXPECT_TRUE(has(message_of({{"Methods/names", name}}), name)) << name;
+  const std::string moving = message({{"Time/final time", "1"}, {"Study/norms", "nodal Linf"}});
+  EXPECT_TRUE(has(moving, "P1")) << moving;
+}
+
+TEST(MethodsOnTetrahedra, are_not_among_all)
+{
+  std::vector<std::string> names;
+  for (const auto &method : choose_methods(make_scene({{"Methods/names", "all"}}), available()))
+    names.push_back(method->name());
+  EXPECT_EQ(std::count(names.begin(), names.end(), "Q1"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "P1"), 0);
+}
+
+TEST(MethodsOnTetrahedra, have_the_memory_that_is_foretold)
+{
+  for (const auto &[name, n] : {std::pair("P1", 20), {"DGP0", 10}})
+  {
+    const auto scene = make_scene(
+        {{"Study/h", "1/" + std::to_string(n)}, {"Study/m", "2"}, {"Methods/names", name}});
+    method::ProblemSize size;
+    size.level = scene.study.series.front().levels.front();
+    size.extents = {static_cast<double>(n), static_cast<double>(n)};
+    size.depth = n;
+    const double expected = find_method(available(), name, "test")->expected_bytes(size),
+                 peak = static_cast<double>(run(scene).records.front().cost.peak_bytes);
+    EXPECT_GT(expected, peak / 2) << name;
+    EXPECT_LT(expected, peak * 2) << name;
+  }
+}
