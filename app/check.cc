@@ -2,6 +2,7 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "check_body.h"
 #include "check_files.h"
 #include "check_in_space.h"
 #include "check_series.h"
@@ -12,6 +13,7 @@
 #include "scene/scene_keys.h"
 #include "study/method_names.h"
 
+#include <array>
 #include <iostream>
 
 namespace plumbline::app
@@ -20,25 +22,35 @@ namespace plumbline::app
 
   namespace
   {
-    /// Bodies with cracks or free surfaces are refused before anything else of their scenes is
-    /// looked at.
+    /// Scenes of bodies with cracks or free surfaces are refused before anything else of them is
+    /// looked at: here these are options.
     void refuse_other_bodies(const CheckOptions &options)
     {
       const auto value_of = [&](const std::string &key)
       { return scene::value_of_key(options.scene_file, options.overrides, key); };
-      const std::string bodies = ". Bodies must have no cracks and no free surfaces, with a "
-                                 "volume constraint in the interaction domain (collar) or "
-                                 "periodic boundaries";
-      for (const auto &[key, name] :
-           {std::pair{"Domain/cracks", "cracks"}, std::pair{"Domain/outside", "free surfaces"}})
+      for (const auto &[key, name, remedy] :
+           {std::array{"Domain/cracks", "cracks of scenes", "--crack 'x0, y0 : x1, y1'"},
+            std::array{"Domain/outside", "free surfaces by an expression",
+                       "the body as Domain/boxes or Domain/mesh, and --boundary free"}})
         if (!value_of(key).empty())
           throw InputError("'plumbline check' does not support " + std::string(name) + ": " + key +
-                           " is given; clear it" + bodies);
+                           " is given; clear it, and give " + remedy);
       if (value_of("Domain/boundary") == "free")
-        throw InputError(
-            "'plumbline check' does not support free bodies: Domain/boundary = free; write "
-            "constrained" +
-            bodies);
+        throw InputError("'plumbline check' does not support free bodies of scenes: "
+                         "Domain/boundary = free; write constrained, and give --boundary free");
+    }
+
+    /// Free surfaces and cracks are known in the plane, at one level.
+    void check_body_options(const CheckOptions &options, bool is_in_space)
+    {
+      const bool is_free = is_free_boundary(options.boundary, "--boundary");
+      if (!is_free && options.cracks.empty())
+        return;
+      const std::string given = is_free ? "--boundary free" : "--crack";
+      if (is_in_space)
+        throw InputError(given + " is for two dimensions; leave it out where Domain/dimension = 3");
+      if (is_series(options))
+        throw InputError(given + " is for the files of one level; give names without {h}");
     }
   } // namespace
 
@@ -53,6 +65,7 @@ namespace plumbline::app
       throw InputError("Study/regime = variable: weights are those of one value of " +
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
+    check_body_options(options, scene.domain.is_in_space());
     const bool has_series = is_series(options);
     if (has_series && scene.domain.is_in_space())
       throw InputError("series of files are checked in the plane alone; give the files of one "

@@ -8,6 +8,8 @@ namespace plumbline::app
   {
     std::string nodes_file, bonds_file, scene_file; ///< {h} in names: a series of levels
     std::string bonds_are = "weights";              ///< or what else, see meshfree::BondValues
+    std::string boundary = "constrained";           ///< or free: that of the domain is a surface
+    std::vector<std::string> cracks;                ///< each "x0, y0 : x1, y1", like Domain/cracks
     std::string output;                ///< folder; empty: results/check_NAME of the scene
     std::vector<std::string> required; ///< see requirements.h; empty: ac
     std::vector<scene::Override> overrides;

@@ -1,5 +1,6 @@
 #include "check_files.h"
 
+#include "check_body.h"
 #include "check_text.h"
 #include "meshfree/check/cells_vtu.h"
 #include "report/check_page.h"
@@ -156,7 +157,8 @@ namespace plumbline::app
                            {},
                            {},
                            {}};
-    page.facts = {std::to_string(found.cells->n_free) + " free nodes",
+    page.facts = {std::to_string(found.cells->n_free) +
+                      (found.body ? " nodes of the interior" : " free nodes"),
                   std::to_string(found.weights.n_bonds) + " bonds", found.level.text()};
     page.parts = {{"outliers", "Outliers",
                    "Each quantity is compared with its own spread. Found and expected values are "
@@ -172,6 +174,13 @@ namespace plumbline::app
                    "Errors of the solution of the scene with these weights and with the reference "
                    "[unit of the solution].",
                    solution_table(found)}};
+    if (found.body)
+      page.parts.insert(page.parts.begin(),
+                        {"body", "Free surfaces and cracks",
+                         "Moments of all families relative to those of the visible part of the "
+                         "ball. The last columns are second moments relative to those of the bulk. "
+                         "All other tables and maps are those of the interior.",
+                         body_table(found)});
     for (std::size_t i = 0; i < found.cells->n_free; ++i)
       page.nodes.push_back({found.cells->nodes[i][0], found.cells->nodes[i][1]});
     page.defects = {fields[0], fields[1]};

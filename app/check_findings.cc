@@ -2,10 +2,13 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "check_body.h"
 #include "geometry/local_coordinates.h"
 #include "meshfree/check/bond_values.h"
 #include "meshfree/discretisations.h"
+#include "problem/builder.h"
 #include "reference/method.h"
+#include "scene/keys.h"
 #include "scene/mesh.h"
 #include "scene/scene_keys.h"
 #include "study/comparison.h"
@@ -157,6 +160,49 @@ namespace plumbline::app
       return result;
     }
 
+    GivenBody body_of(const scene::Scene &scene, const CheckOptions &options)
+    {
+      GivenBody body;
+      body.has_free_boundary = is_free_boundary(options.boundary, "--boundary");
+      for (const std::string &text : options.cracks)
+        try
+        {
+          for (geometry::Polyline &crack : scene::to_lines(text, scene::lines()))
+          {
+            geometry::move_to(scene.domain.origin, crack);
+            body.cracks.push_back(std::move(crack));
+          }
+        }
+        catch (const InputError &error)
+        {
+          throw InputError("--crack: " + std::string(error.what()));
+        }
+      return body;
+    }
+
+    /// Of a body with a free boundary: its boxes, as large as they are, or the cells of its mesh.
+    std::vector<geometry::Polygon> parts_of(const scene::Scene &scene, const geometry::Mesh &mesh)
+    {
+      if (scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty())
+        return geometry::convex_parts(scene.domain.boxes);
+      std::vector<geometry::Polygon> parts;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        parts.push_back(mesh.polygon(c));
+      return parts;
+    }
+
+    /// What of a problem the check of weights needs: nodes on a mesh.
+    problem::Problem<2> problem_on(const geometry::Mesh &mesh,
+                                   const std::shared_ptr<const geometry::NodeCells<2>> &cells,
+                                   const physics::Kernel<2> &kernel, double h)
+    {
+      problem::MeshDomain on;
+      on.mesh = std::make_shared<const geometry::Mesh>(mesh);
+      on.cells = cells;
+      on.reach = kernel.horizon();
+      return problem::ProblemBuilder(std::move(on), kernel, h).build();
+    }
+
     /// How the files were read, and with which horizon.
     std::vector<std::string> all_notes(const Findings &found, const std::string &assumed,
                                        const CheckOptions &options)
@@ -191,6 +237,8 @@ namespace plumbline::app
   Findings find(scene::Scene scene, const CheckOptions &options)
   {
     check_analysis(scene, scene::Analysis::check);
+    GivenBody body = body_of(scene, options);
+    scene.domain.is_free_body = body.has_free_boundary;
     Findings found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
@@ -198,35 +246,45 @@ namespace plumbline::app
     weights.nodes = read_given_nodes(options.nodes_file);
     weights.nodes.origin = scene.domain.origin;
     geometry::move_to(weights.nodes.origin, weights.nodes.places);
-    const bool boundary_is_data = scene.methods.nodes.are_vertices();
+    const bool boundary_is_data = scene.methods.nodes.are_vertices() && !body.has_free_boundary;
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";
     scene.methods.nodes = {std::filesystem::absolute(options.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
     found.level = choose_level(scene, weights.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
+    if (body.has_free_boundary)
+      body.parts = parts_of(scene, mesh);
     check_places(weights.nodes, mesh, found.level.text());
     GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
     weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
-    found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
+    found.n_on_boundary = boundary_is_data || body.has_free_boundary ? 0 : cells.n_on_boundary;
     const auto case_of = [&, of_nodes = weights.cells](unsigned int c)
     {
       scene::Case one = scene::make_case(scene, c, found.level.level);
       one.problem.on_mesh()->cells = of_nodes;
       return one;
     };
-    const scene::Case first = case_of(0);
+    problem::Problem<2> problem =
+        body.is_there()
+            ? problem_on(mesh, weights.cells, scene::make_kernel(scene, found.level.level.horizon),
+                         found.level.level.h)
+            : case_of(0).problem;
     weights.given = read_given_families(options.bonds_file, weights.nodes, *weights.cells);
     for (const std::size_t i : weights.cells->source)
-    {
-      found.ids.push_back(weights.nodes.id[i]);
       weights.volumes.push_back(weights.nodes.volume[i]);
-    }
-    to_weights(to_bond_values(options.bonds_are, "--bonds-are"), first.problem.kernel, weights);
-    static_cast<meshfree::Findings &>(found) =
-        find_defects(std::move(weights), first.problem, cells.uncut_areas, found.level.node_size,
-                     scene.methods.names);
+    to_weights(to_bond_values(options.bonds_are, "--bonds-are"), problem.kernel, weights);
+    if (body.is_there())
+      found.body = check_body(body, "--crack", problem.kernel, found.level.node_size, weights,
+                              cells.uncut_areas);
+    for (const std::size_t i : weights.cells->source)
+      found.ids.push_back(weights.nodes.id[i]);
+    problem.on_mesh()->cells = weights.cells; // the interior first
+    static_cast<meshfree::Findings &>(found) = find_defects(
+        std::move(weights), problem, cells.uncut_areas, found.level.node_size, scene.methods.names);
     found.notes = all_notes(found, assumed_horizon(scene, options, found.level.level), options);
+    if (body.is_there())
+      return found; // without a constraint all around, or with cracks, solutions are other ones
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "check.h"
-#include "meshfree/check/findings.h"
+#include "meshfree/check/body_check.h"
 #include "scene/scene.h"
 #include "study/study_results.h"
 
 #include <memory>
+#include <optional>
 
 namespace plumbline::app
 {
@@ -36,7 +37,10 @@ namespace plumbline::app
     std::vector<std::string> notes; ///< how files were read that are not plain CSV
     std::size_t n_on_boundary = 0;  ///< free nodes on the boundary of Ω
     ChosenLevel level;
-    std::vector<CaseCheck> cases;
+    std::vector<CaseCheck> cases; ///< none of bodies
+    /// Of a body with free surfaces or cracks, whose families of whole balls are all that the other
+    /// members are about.
+    std::optional<meshfree::BodyCheck> body = {};
 
     std::string id(std::size_t node) const { return std::to_string(ids[node]); }
   };

@@ -1,6 +1,7 @@
 #include "check_text.h"
 
 #include "base/number_text.h"
+#include "check_body.h"
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/solution_record.h"
@@ -20,13 +21,27 @@ namespace plumbline::app
   {
     constexpr std::size_t n_columns = report::summary_columns;
 
+    /// Nodes of Ω.
+    std::size_t n_of_domain(const Findings &found)
+    {
+      return found.body ? found.body->n_families : found.cells->n_free;
+    }
+
+    void tell_body(std::ostream &out, const Findings &found)
+    {
+      if (found.body)
+        out << report::to_text(body_table(found), n_columns)
+            << "moments below are those of the interior; solutions are not compared\n";
+    }
+
     void tell_nodes(std::ostream &out, const Findings &found, const CheckOptions &options)
     {
-      out << "nodes     " << options.nodes_file << ": " << found.cells->n_free << " free, "
-          << found.ids.size() - found.cells->n_free
-          << " in the collar; volumes are off the cells' areas by "
+      const std::size_t n_free = n_of_domain(found);
+      out << "nodes     " << options.nodes_file << ": " << n_free << " free, "
+          << found.ids.size() - n_free << " in the collar; volumes are off the cells' areas by "
           << base::to_percent(found.volume_defect) << '\n'
-          << "bonds     " << options.bonds_file << ": " << found.weights.n_bonds << ", at most "
+          << "bonds     " << options.bonds_file << ": "
+          << (found.body ? found.body->n_bonds : found.weights.n_bonds) << ", at most "
           << found.weights.largest_family << " of a node";
       if (found.given.n_ignored > 0)
         out << "; " << found.given.n_ignored << " of collar nodes ignored";
@@ -134,6 +149,7 @@ namespace plumbline::app
   {
     std::ostringstream out;
     out << std::setprecision(4) << "report    " << page << '\n';
+    tell_body(out, found);
     tell_nodes(out, found, options);
     tell_moments(out, found);
     tell_elastic(out, found);
@@ -155,9 +171,9 @@ namespace plumbline::app
 
     void add_sizes(Json &json, const Findings &found)
     {
-      json["n_free"] = found.cells->n_free;
-      json["n_collar"] = found.ids.size() - found.cells->n_free;
-      json["n_bonds"] = found.weights.n_bonds;
+      json["n_free"] = n_of_domain(found);
+      json["n_collar"] = found.ids.size() - n_of_domain(found);
+      json["n_bonds"] = found.body ? found.body->n_bonds : found.weights.n_bonds;
       json["n_ignored_bonds"] = found.given.n_ignored;
       json["largest_family"] = found.weights.largest_family;
       json["series"] = found.level.series;
@@ -246,6 +262,8 @@ namespace plumbline::app
                  {"bonds", options.bonds_file},
                  {"scene", options.scene_file}};
     add_sizes(json, found);
+    if (found.body)
+      json["body"] = Json::parse(body_json(found));
     add_moments(json, found);
     add_causes(json, found);
     add_operator(json, found);

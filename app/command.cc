@@ -145,6 +145,14 @@ namespace
     check.add_option("--bonds-are", options->bonds_are,
                      "What the column weight holds: weights (default), stiffness (C weight: force "
                      "density per length) or 'force constants' (V_i C weight: force per length)");
+    check.add_option("--boundary", options->boundary,
+                     "constrained (default): u is prescribed around the domain. free: the boundary "
+                     "of the domain is a free surface, where families are truncated");
+    check
+        .add_option("--crack", options->cracks,
+                    "A crack that no bond may cross: 'x0, y0 : x1, y1', with more points for "
+                    "bends; may be repeated")
+        ->allow_extra_args(false);
     check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
     check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     check.add_option("--threads", request.n_threads, "Threads (default: all cores)");

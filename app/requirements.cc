@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "check_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -270,92 +271,117 @@ namespace plumbline::app
     }
   } // namespace
 
+  namespace
+  {
+    /// Sentences on the families of whole balls, after those on the rest of a body.
+    std::vector<std::string> after_body(std::vector<std::string> of_body,
+                                        const std::vector<std::string> &of_interior)
+    {
+      for (const std::string &one : of_interior)
+        of_body.push_back("interior: " + one);
+      return of_body;
+    }
+
+    std::vector<std::string> interior_complaints(const Findings &found,
+                                                 const Requirements &required)
+    {
+      std::vector<std::string> result;
+      const double ratio = found.level.node_size / found.level.level.horizon;
+      for (const Cause &cause : found.causes)
+        if (!cause.is_own_error || is_too_inexact(found, required))
+          result.push_back("cause: " + cause.text);
+      add_outliers(found, result);
+      if (required.ac && worst_of_both(found) > found.precision.moments)
+        result.push_back("required ac: " + off(found) + "; " + consequence(found));
+      if (required.consistent && found.moments.typical() > ratio)
+        result.push_back("required consistent: moments of most nodes are off by " +
+                         base::to_percent(found.moments.typical()) + ", more than h/horizon = " +
+                         base::to_percent(ratio) + ", so that it is no matter of h/horizon");
+      if (required.moments && worst_of_both(found) > *required.moments)
+        result.push_back("required moments=" + base::to_text(*required.moments, 5) + ": " +
+                         off(found));
+      if (required.symmetric && !found.body &&
+          (found.symmetry.asymmetry > found.precision.moments || found.symmetry.n_unpaired > 0))
+        result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
+                         base::to_percent(found.symmetry.asymmetry) +
+                         " of the largest, between nodes " + found.id(found.symmetry.nodes[0]) +
+                         " and " + found.id(found.symmetry.nodes[1]) + "; " +
+                         std::to_string(found.symmetry.n_unpaired) + " bonds without a partner");
+      if (required.m_matrix && !found.matrix.is_m_matrix())
+        result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
+                         " rows with positive off-diagonal entries, " +
+                         std::to_string(found.matrix.n_weak) + " not diagonally dominant, " +
+                         std::to_string(found.matrix.n_loose) + " not tied to the data");
+      if (!found.matrix_failure.empty())
+        result.push_back("the matrix cannot be examined: " + found.matrix_failure);
+      else if (!found.matrix.is_positive_definite())
+        result.push_back("the matrix is NOT positive definite: " +
+                         std::to_string(found.matrix.n_negative_eigenvalues) +
+                         " negative eigenvalues");
+      constexpr double alike = .05; // of the spacing of scattered nodes and the level's h
+      const double h = found.level.level.h;
+      if (!result.empty() && std::abs(std::log(found.level.node_size / h)) > alike)
+        result.insert(
+            result.begin(),
+            "is the scene that of these nodes? Its nearest level has h = " + base::to_text(h, 6) +
+                " and the horizon " + base::to_text(found.level.level.horizon, 6) +
+                ", their spacing is " + base::to_text(found.level.node_size, 6) +
+                "; give Study/h and Study/m, or Study/horizon, of your bonds");
+      return result;
+    }
+
+    std::vector<std::string> interior_verdicts(const Findings &found)
+    {
+      const MomentCheck &moments = found.moments;
+      std::vector<std::string> result;
+      const MomentDefect &first = moments.defects[0];
+      if (!found.rule.empty())
+        result.push_back((found.is_mended ? "after this correction the weights are those of "
+                                          : "the weights are those of ") +
+                         found.rule +
+                         (std::abs(found.rule_factor - 1) > file_tolerance
+                              ? " times " + base::to_text(found.rule_factor, 5)
+                              : "") +
+                         (found.outliers.empty() ? "" : ", except for the outliers listed below"));
+      if (!found.rule_remark.empty())
+        result.push_back(found.rule_remark);
+      const double exact = std::max(MomentCheck::tolerance, found.precision.moments);
+      const bool is_first_exact = first.worst.value <= exact,
+                 is_second_exact = moments.second.value <= exact;
+      if (!is_first_exact)
+        result.push_back("first moments off by up to " + base::to_percent(first.worst.value) +
+                         " at node " + found.id(first.worst.node) +
+                         ": the operator has a drift there that grows as 1 / horizon");
+      if (is_second_exact)
+        result.push_back(
+            std::string("second moments exact") +
+            (is_first_exact ? ": asymptotically compatible (AC) as far as moments tell" : ""));
+      else
+        result.push_back((moments.typical() > found.precision.moments
+                              ? "not asymptotically compatible (not AC): "
+                              : std::string()) +
+                         "second moments off by " + base::to_percent(moments.mean_ratio - 1) +
+                         " on average (worst " + base::to_percent(moments.second.value) +
+                         " at node " + found.id(moments.second.node) + "): " + consequence(found));
+      if (found.n_on_boundary > 0)
+        result.push_back(std::to_string(found.n_on_boundary) +
+                         " free nodes lie on the boundary of the domain; if they carry data, write "
+                         "Methods/nodes = vertices");
+      if (found.matrix_failure.empty() && found.matrix.is_positive_definite())
+        result.push_back("positive definite");
+      return result;
+    }
+  } // namespace
+
   std::vector<std::string> complaints(const Findings &found, const Requirements &required)
   {
-    std::vector<std::string> result;
-    const double ratio = found.level.node_size / found.level.level.horizon;
-    for (const Cause &cause : found.causes)
-      if (!cause.is_own_error || is_too_inexact(found, required))
-        result.push_back("cause: " + cause.text);
-    add_outliers(found, result);
-    if (required.ac && worst_of_both(found) > found.precision.moments)
-      result.push_back("required ac: " + off(found) + "; " + consequence(found));
-    if (required.consistent && found.moments.typical() > ratio)
-      result.push_back("required consistent: moments of most nodes are off by " +
-                       base::to_percent(found.moments.typical()) + ", more than h/horizon = " +
-                       base::to_percent(ratio) + ", so that it is no matter of h/horizon");
-    if (required.moments && worst_of_both(found) > *required.moments)
-      result.push_back("required moments=" + base::to_text(*required.moments, 5) + ": " +
-                       off(found));
-    if (required.symmetric &&
-        (found.symmetry.asymmetry > found.precision.moments || found.symmetry.n_unpaired > 0))
-      result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
-                       base::to_percent(found.symmetry.asymmetry) +
-                       " of the largest, between nodes " + found.id(found.symmetry.nodes[0]) +
-                       " and " + found.id(found.symmetry.nodes[1]) + "; " +
-                       std::to_string(found.symmetry.n_unpaired) + " bonds without a partner");
-    if (required.m_matrix && !found.matrix.is_m_matrix())
-      result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
-                       " rows with positive off-diagonal entries, " +
-                       std::to_string(found.matrix.n_weak) + " not diagonally dominant, " +
-                       std::to_string(found.matrix.n_loose) + " not tied to the data");
-    if (!found.matrix_failure.empty())
-      result.push_back("the matrix cannot be examined: " + found.matrix_failure);
-    else if (!found.matrix.is_positive_definite())
-      result.push_back("the matrix is NOT positive definite: " +
-                       std::to_string(found.matrix.n_negative_eigenvalues) +
-                       " negative eigenvalues");
-    constexpr double alike = .05; // of the spacing of scattered nodes and the level's h
-    const double h = found.level.level.h;
-    if (!result.empty() && std::abs(std::log(found.level.node_size / h)) > alike)
-      result.insert(
-          result.begin(),
-          "is the scene that of these nodes? Its nearest level has h = " + base::to_text(h, 6) +
-              " and the horizon " + base::to_text(found.level.level.horizon, 6) +
-              ", their spacing is " + base::to_text(found.level.node_size, 6) +
-              "; give Study/h and Study/m, or Study/horizon, of your bonds");
-    return result;
+    const std::vector<std::string> result = interior_complaints(found, required);
+    return found.body ? after_body(body_complaints(found, required), result) : result;
   }
 
   std::vector<std::string> verdicts(const Findings &found)
   {
-    const MomentCheck &moments = found.moments;
-    std::vector<std::string> result;
-    const MomentDefect &first = moments.defects[0];
-    if (!found.rule.empty())
-      result.push_back((found.is_mended ? "after this correction the weights are those of "
-                                        : "the weights are those of ") +
-                       found.rule +
-                       (std::abs(found.rule_factor - 1) > file_tolerance
-                            ? " times " + base::to_text(found.rule_factor, 5)
-                            : "") +
-                       (found.outliers.empty() ? "" : ", except for the outliers listed below"));
-    if (!found.rule_remark.empty())
-      result.push_back(found.rule_remark);
-    const double exact = std::max(MomentCheck::tolerance, found.precision.moments);
-    const bool is_first_exact = first.worst.value <= exact,
-               is_second_exact = moments.second.value <= exact;
-    if (!is_first_exact)
-      result.push_back("first moments off by up to " + base::to_percent(first.worst.value) +
-                       " at node " + found.id(first.worst.node) +
-                       ": the operator has a drift there that grows as 1 / horizon");
-    if (is_second_exact)
-      result.push_back(
-          std::string("second moments exact") +
-          (is_first_exact ? ": asymptotically compatible (AC) as far as moments tell" : ""));
-    else
-      result.push_back((moments.typical() > found.precision.moments
-                            ? "not asymptotically compatible (not AC): "
-                            : std::string()) +
-                       "second moments off by " + base::to_percent(moments.mean_ratio - 1) +
-                       " on average (worst " + base::to_percent(moments.second.value) +
-                       " at node " + found.id(moments.second.node) + "): " + consequence(found));
-    if (found.n_on_boundary > 0)
-      result.push_back(std::to_string(found.n_on_boundary) +
-                       " free nodes lie on the boundary of the domain; if they carry data, write "
-                       "Methods/nodes = vertices");
-    if (found.matrix_failure.empty() && found.matrix.is_positive_definite())
-      result.push_back("positive definite");
-    return result;
+    const std::vector<std::string> result = interior_verdicts(found);
+    return found.body ? after_body(body_verdicts(found), result) : result;
   }
 } // namespace plumbline::app

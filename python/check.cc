@@ -1,4 +1,4 @@
-#include "app/requirements.h"
+#include "app/check_body.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "geometry/mesh_input.h"
@@ -79,30 +79,36 @@ namespace plumbline::python
     app::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
                        const physics::Kernel<2> &kernel, const geometry::Domain &domain, double h,
                        bool boundary_is_data, const std::vector<std::string> &meant,
-                       meshfree::BondValues values)
+                       meshfree::BondValues values, app::GivenBody body)
     {
-      const geometry::Mesh mesh = geometry::lattice_mesh(domain, h, kernel.horizon(), false);
+      const bool is_free = body.has_free_boundary;
+      const geometry::Mesh mesh =
+          geometry::lattice_mesh(domain, h, is_free ? 0 : kernel.horizon(), false);
+      if (is_free)
+        body.parts = geometry::convex_parts(domain);
       meshfree::check_places(nodes, mesh, "h = " + std::to_string(h));
-      meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, boundary_is_data);
+      meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, boundary_is_data && !is_free);
       app::Findings found;
       found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};
-      found.n_on_boundary = boundary_is_data ? 0 : cells.n_on_boundary;
+      found.n_on_boundary = boundary_is_data || is_free ? 0 : cells.n_on_boundary;
       meshfree::GivenWeights weights;
       weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
       weights.given = meshfree::families_of_rows(rows, nodes, *weights.cells, {"bonds", "index"});
       weights.given.weight_rounding = rounding;
       for (const std::size_t k : weights.cells->source)
-      {
-        found.ids.push_back(nodes.id[k]);
         weights.volumes.push_back(nodes.volume[k]);
-      }
       weights.nodes = std::move(nodes);
+      meshfree::to_weights(values, kernel, weights);
+      if (body.is_there())
+        found.body = app::check_body(body, "cracks", kernel, found.level.node_size, weights,
+                                     cells.uncut_areas);
+      for (const std::size_t k : weights.cells->source)
+        found.ids.push_back(weights.nodes.id[k]);
       problem::MeshDomain on;
       on.mesh = std::make_shared<const geometry::Mesh>(mesh);
       on.cells = weights.cells;
       on.reach = kernel.horizon();
       const problem::Problem<2> problem = problem::ProblemBuilder(std::move(on), kernel, h).build();
-      meshfree::to_weights(values, kernel, weights);
       static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
           std::move(weights), problem, cells.uncut_areas, found.level.node_size, meant);
       return found;
@@ -197,8 +203,11 @@ namespace plumbline::python
                                   "failure"_a = found.matrix_failure);
       result["volume_factor"] = found.volume_factor;
       result["volume_defect"] = found.volume_defect;
-      result["n_free"] = found.cells->n_free;
+      result["n_free"] = found.body ? found.body->n_families : found.cells->n_free;
       result["n_ignored_bonds"] = found.given.n_ignored;
+      result["body"] = py::none();
+      if (found.body)
+        result["body"] = py::module_::import("json").attr("loads")(app::body_json(found));
       return result;
     }
 
@@ -206,8 +215,13 @@ namespace plumbline::python
                    const Integers &j, const Doubles &w, const physics::Kernel<2> &kernel,
                    const py::object &boxes, const py::object &exclude, const py::object &points,
                    double h, bool boundary_is_data, const std::vector<std::string> &meant,
-                   const std::vector<std::string> &require, const std::string &bonds_are)
+                   const std::vector<std::string> &require, const std::string &bonds_are,
+                   const std::string &boundary, const std::vector<Doubles> &cracks)
     {
+      app::GivenBody body;
+      body.has_free_boundary = app::is_free_boundary(boundary, "boundary");
+      for (std::size_t c = 0; c < cracks.size(); ++c)
+        body.cracks.push_back(to_points(cracks[c], "cracks[" + std::to_string(c) + "]"));
       const app::Requirements required = app::parse_requirements(require);
       const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
       std::vector<Point<2>> places = to_points(nodes, "nodes");
@@ -232,7 +246,7 @@ namespace plumbline::python
         meshfree::GivenNodes given = to_nodes(std::move(places), volumes.data());
         const double size = h > 0 ? h : usual_h(domain, given.volume);
         found = find(std::move(given), to_rows(i, j, w, kernel_points), kernel, domain, size,
-                     boundary_is_data, meant, values);
+                     boundary_is_data, meant, values, std::move(body));
       }
       return to_dict(found, required);
     }
@@ -242,6 +256,6 @@ namespace plumbline::python
   {
     module.def("check_arrays", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
                "boxes"_a, "exclude"_a, "points"_a, "h"_a, "boundary_is_data"_a, "meant"_a,
-               "require"_a, "bonds_are"_a);
+               "require"_a, "bonds_are"_a, "boundary"_a, "cracks"_a);
   }
 } // namespace plumbline::python

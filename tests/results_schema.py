@@ -56,8 +56,12 @@ with tempfile.TemporaryDirectory() as folder:
               "--quiet", "-o", folder], "sample"),
             (["check", str(check / "nodes.csv"), str(check / "bonds.csv"), "--scene", str(check / "check.prm"),
               "--quiet", "-o", folder], "check"),
+            (["check", str(check / "nodes.csv"), str(check / "bonds.csv"), "--scene", str(check / "check.prm"),
+              "--crack", "0.4, 0.5 : 0.6, 0.5", "--json"], "check"),  # exit code 1: bonds cross it
             (["moduli", "--rules", "FA", "--json"], "results")):
-        ran = subprocess.run([command, *words], check=True, capture_output=True, text=True)
+        ran = subprocess.run([command, *words], check=False, capture_output=True, text=True)
+        if ran.returncode != (1 if "--crack" in words else 0):
+            sys.exit(f"{words}: exit code {ran.returncode}: {ran.stderr}")
         written = json.loads(ran.stdout or pathlib.Path(folder, name + ".json").read_text())
         own = next(source.glob(f"lib/*/{name}.schema.json"))
         jsonschema.validate(written, json.loads(own.read_text()), jsonschema.Draft202012Validator)

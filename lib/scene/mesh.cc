@@ -152,7 +152,11 @@ namespace plumbline::scene
   geometry::Mesh make_mesh(const Scene &scene, const Level &level)
   {
     geometry::Mesh mesh = read_or_make(scene, level);
+    if (scene.domain.is_free_body)
+      keep_inside(mesh);
     check_units(scene, level, mesh);
+    if (scene.domain.is_free_body)
+      return mesh;
     const double width = geometry::collar_width(mesh);
     if (width < scene.reach(level.horizon) * (1 - 1e-9))
     {

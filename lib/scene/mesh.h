@@ -6,7 +6,8 @@
 
 namespace plumbline::scene
 {
-  /// The mesh of a scene at a level, checked; its collar holds the ball.
+  /// The mesh of a scene at a level, checked; its collar holds the ball. Of a body with a free
+  /// boundary, its cells alone.
   /// @throws InputError  a mesh that cannot be used, or a collar thinner than the horizon
   geometry::Mesh make_mesh(const Scene &scene, const Level &level);
 

@@ -150,27 +150,26 @@ namespace plumbline::meshfree
       }
       return result;
     }
-
-    /// The same cells in another order.
-    geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &cells,
-                                     const std::vector<std::size_t> &order, std::size_t n_free)
-    {
-      geometry::NodeCells<2> result;
-      result.n_free = n_free;
-      result.first_piece = {0};
-      for (const std::size_t c : order)
-      {
-        result.nodes.push_back(cells.nodes[c]);
-        result.source.push_back(cells.source[c]);
-        result.area.push_back(cells.area[c]);
-        result.centroid.push_back(cells.centroid[c]);
-        for (std::size_t p = cells.first_piece[c]; p < cells.first_piece[c + 1]; ++p)
-          result.pieces.push_back(cells.pieces[p]);
-        result.first_piece.push_back(result.pieces.size());
-      }
-      return result;
-    }
   } // namespace
+
+  geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &cells,
+                                   const std::vector<std::size_t> &order, std::size_t n_free)
+  {
+    geometry::NodeCells<2> result;
+    result.n_free = n_free;
+    result.first_piece = {0};
+    for (const std::size_t c : order)
+    {
+      result.nodes.push_back(cells.nodes[c]);
+      result.source.push_back(cells.source[c]);
+      result.area.push_back(cells.area[c]);
+      result.centroid.push_back(cells.centroid[c]);
+      for (std::size_t p = cells.first_piece[c]; p < cells.first_piece[c + 1]; ++p)
+        result.pieces.push_back(cells.pieces[p]);
+      result.first_piece.push_back(result.pieces.size());
+    }
+    return result;
+  }
 
   double node_spacing(const GivenNodes &nodes, const geometry::Mesh &mesh)
   {

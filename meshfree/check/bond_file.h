@@ -59,6 +59,11 @@ namespace plumbline::meshfree
   GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh,
                          bool boundary_is_data);
 
+  /// The same cells in another order.
+  /// @param n_free  how many of them lie in Ω then
+  geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &cells,
+                                   const std::vector<std::size_t> &order, std::size_t n_free);
+
   /// A bond of a node in the collar, whose family has no part in the operator.
   struct CollarBond
   {

@@ -88,6 +88,9 @@ class Findings(dict):
     outliers    dicts with node, neighbour, index (of the bond), found, expected, text
     moments     degrees 1 to 4 with worst, median and the defects of all free nodes
     weights, symmetry, matrix, volume_factor, volume_defect, n_free, n_ignored_bonds
+    body        None, or of a body with free surfaces or cracks a dict as in check.json: families
+                (interior, near surfaces, near cracks), correction, crossing, missing, different;
+                moments, weights, symmetry and matrix are those of the interior then
     """
 
     @property
@@ -103,7 +106,8 @@ class Findings(dict):
 
 
 def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, h=None,
-          boundary_is_data=False, rule=(), require=("ac",), bonds_are="weights"):
+          boundary_is_data=False, rule=(), require=("ac",), bonds_are="weights",
+          boundary="constrained", cracks=()):
     """Check the weights of another code, as `plumbline check` does, from arrays.
 
     nodes     shape (n, 2) [length], those in the boxes (free) and within a horizon around them
@@ -118,10 +122,14 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
     bonds_are  what w holds: "weights", "stiffness" (C w: force density per length) or
               "force constants" (V_i C w: force per length)
     require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
+    boundary  "constrained": nodes around the boxes are constrained, and balls are whole; "free": the
+              boundary of the boxes is a free surface, where families are truncated
+    cracks    that no bond may cross: a list of polylines, each of shape (n, 2) [length]
 
     Returns Findings; print() shows its sentences, where nodes are numbered from 0.
     """
     as_list = lambda names: [names] if isinstance(names, str) else list(names)
     return Findings(_core.check_arrays(nodes, volumes, i, j, w, kernel, boxes, exclude, points,
                                        h or 0., boundary_is_data, as_list(rule),
-                                       as_list(require), bonds_are))
+                                       as_list(require), bonds_are, boundary,
+                                       [np.asarray(one, float) for one in cracks]))

@@ -279,8 +279,11 @@ TEST(CheckCauses, bodies_that_are_not_checked_are_refused_before_all_else)
   // keys that would be refused, too, come later
   const std::string more = "--set Methods/nodes=vertices --set Problem/load=1 ";
   for (const auto &[key, text] :
-       {std::pair{"'Domain/cracks=.2,.5 : .8,.5'", "'plumbline check' does not support cracks"},
-        std::pair{"Domain/boundary=free", "'plumbline check' does not support free bodies"}})
+       {std::pair{"'Domain/cracks=.2,.5 : .8,.5'", "'plumbline check' does not support cracks of "
+                                                   "scenes: Domain/cracks is given; clear it, "
+                                                   "and give --crack"},
+        std::pair{"Domain/boundary=free",
+                  "'plumbline check' does not support free bodies of scenes"}})
   {
     const Outcome outcome = check(nodes_file, bonds_file, more + "--set " + key);
     EXPECT_EQ(outcome.exit_code, 2);

@@ -138,3 +138,49 @@ def test_the_command_finds_the_same_of_the_shipped_bonds(root, square):
     assert [(one["node"] + 1, one["neighbour"] + 1) for one in found["outliers"]] == \
         [(one["node"], one["neighbour"]) for one in said["outliers"]] == [(77, 79)]
     assert found["rule"] == said["rule"]["name"]
+
+
+def body(square):
+    """Nodes of the square alone, and the weights of a rule without bonds to other nodes."""
+    w = made(square)
+    inside = np.all((NODES > 0) & (NODES < 1), axis=1)
+    index = np.cumsum(inside) - 1
+    keep = inside[w.j]
+    return NODES[inside], index[w.i[keep]], index[w.j[keep]], w.w[keep], w.points[keep]
+
+
+def test_a_body_with_free_surfaces_and_a_crack(square):
+    nodes, i, j, w, points = body(square)
+    volumes = np.full(len(nodes), H * H)
+    given = dict(boxes=square, boundary="free")
+    found = plumbline.check(nodes, volumes, i, j, w, KERNEL, points=points, **given)
+    assert found.passed, found
+    assert found["n_free"] == 256 and found["body"]["n_families"] == 256
+    cuts = {one["cut"]: one for one in found["body"]["families"]}
+    assert cuts["none"]["n"] == 100 and cuts["surface"]["n"] == 156
+    assert found["body"]["correction"]["name"] == "none"
+    assert check(made(square), square)["body"] is None
+
+    crack = [[(.3, .5), (.7, .5)]]
+    found = plumbline.check(nodes, volumes, i, j, w, KERNEL, points=points, cracks=crack, **given)
+    low, high = nodes[i][:, 1] - .5, nodes[j][:, 1] - .5
+    at = nodes[i][:, 0] + (nodes[j] - nodes[i])[:, 0] * low / np.where(low == high, 1, low - high)
+    crosses = (low * high < 0) & (at > .3) & (at < .7)
+    pairs = {tuple(sorted(pair)) for pair in zip(i[crosses], j[crosses])}
+    assert not found.passed and {tuple(one) for one in found["body"]["crossing"]} == pairs
+    assert f"{len(pairs)} pairs of nodes have bonds across a crack" in found["complaints"][0]
+    keep = ~crosses
+    found = plumbline.check(nodes, volumes, i[keep], j[keep], w[keep], KERNEL, points=points[keep],
+                            cracks=crack, **given)
+    assert found.passed and found["body"]["crossing"] == [], found
+
+    volume = np.bincount(i, w)
+    bulk = volume[136]  # a node in the middle
+    scaled = w * 2 * bulk / (volume[i] + volume[j])
+    found = plumbline.check(nodes, volumes, i, j, scaled, KERNEL, points=points, **given)
+    assert found.passed and found["body"]["correction"]["name"] == "volume"
+    assert "volume correction" in str(found)
+    with pytest.raises(plumbline.InputError, match="boundary = 'open' is not known"):
+        plumbline.check(nodes, volumes, i, j, w, KERNEL, boxes=square, boundary="open")
+    with pytest.raises(plumbline.InputError, match="cracks: crack 0 has its points 0 and 1"):
+        plumbline.check(nodes, volumes, i, j, w, KERNEL, cracks=[[(.3, .5), (.3, .5)]], **given)

@@ -1,0 +1,326 @@
+#include "check_body.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "geometry/cracks.h"
+#include "report/text_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace plumbline::app
+{
+  using geometry::FamilyCut;
+  using meshfree::BodyCheck;
+  using meshfree::Correction;
+  using meshfree::CutFamilies;
+  using meshfree::NodePair;
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    constexpr std::size_t most_named = 5;
+
+    std::string name(FamilyCut cut)
+    {
+      switch (cut)
+      {
+      case FamilyCut::none:
+        return "interior";
+      case FamilyCut::surface:
+        return "near surfaces";
+      default:
+        return "near cracks";
+      }
+    }
+
+    std::string word(FamilyCut cut)
+    {
+      return cut == FamilyCut::none ? "none" : cut == FamilyCut::surface ? "surface" : "crack";
+    }
+
+    std::string word(Correction correction)
+    {
+      return correction == Correction::none     ? "none"
+             : correction == Correction::volume ? "volume"
+                                                : "whole ball";
+    }
+
+    /// Of a node numbered as in its file.
+    std::string id(const Findings &found, std::size_t node)
+    {
+      return std::to_string(found.nodes.id[node]);
+    }
+
+    std::string number(double value)
+    {
+      constexpr int digits = 4;
+      return base::to_text(value, digits);
+    }
+
+    /// "12 and 13, 12 and 14 ..."
+    std::string list(const Findings &found, const std::vector<NodePair> &pairs)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < std::min(most_named, pairs.size()); ++k)
+        text += (k == 0 ? "" : ", ") + id(found, pairs[k].node) + " and " +
+                id(found, pairs[k].neighbour);
+      return text + (pairs.size() > most_named ? " ..." : "");
+    }
+
+    std::string pairs_have(std::size_t n)
+    {
+      return std::to_string(n) + (n == 1 ? " pair of nodes has " : " pairs of nodes have ");
+    }
+
+    const CutFamilies *families(const BodyCheck &body, FamilyCut cut)
+    {
+      for (const CutFamilies &one : body.families)
+        if (one.cut == cut)
+          return &one;
+      return nullptr;
+    }
+
+    /// Young's modulus and Poisson's ratio beside those of the interior; empty for scalar kernels.
+    std::string elastic_text(const CutFamilies &cut, const CutFamilies &interior)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < cut.elastic.size(); ++k)
+        if (const std::string &of = cut.elastic[k].name;
+            of.find("plane stress") != std::string::npos)
+          text += "; " + of + ": " + number(cut.elastic[k].median) + ", in the interior " +
+                  number(interior.elastic[k].median);
+      return text;
+    }
+
+    std::string effect_text(const CutFamilies &cut, const BodyCheck &body)
+    {
+      const std::string what =
+          cut.cut == FamilyCut::surface ? "surface effect (" : "effect of cracks (";
+      return what + std::to_string(cut.n) + " families " + name(cut.cut) +
+             "; relative to the bulk, median and minimum): second moments of the visible part " +
+             base::to_percent(cut.exact) + ", " + base::to_percent(cut.least_exact) +
+             "; of the weights " + base::to_percent(cut.given) + ", " +
+             base::to_percent(cut.least_given) +
+             elastic_text(cut, *families(body, FamilyCut::none));
+    }
+
+    std::string weights_text(const BodyCheck &body)
+    {
+      if (body.correction.correction == Correction::volume)
+        return "weights are multiplied by 2V0/(Vi+Vj): volume correction (Le & Bobaru 2018), where "
+               "V is " +
+               body.correction.size.name + "; moments are compared without it";
+      if (body.correction.correction == Correction::whole_ball || body.n_compared == 0)
+        return "";
+      if (!body.is_different())
+        return "no surface correction: bonds near free surfaces and cracks have the weights of the "
+               "interior";
+      std::vector<double> factors;
+      for (const NodePair &one : body.different)
+        factors.push_back(one.factor);
+      std::sort(factors.begin(), factors.end());
+      return std::to_string(factors.size()) + " of " + std::to_string(body.n_compared) +
+             " bonds near free surfaces and cracks have " + number(factors.front()) + " to " +
+             number(factors.back()) + " times (median " + number(factors[factors.size() / 2]) +
+             ") the weights of like bonds in the interior: this is not the volume correction";
+    }
+
+    /// Moments near free surfaces or cracks that are farther off than is allowed.
+    std::vector<std::string> moment_complaints(const Findings &found, const Requirements &required)
+    {
+      std::vector<std::string> result;
+      const BodyCheck &body = *found.body;
+      const double ratio = body.spacing / found.level.level.horizon;
+      for (const CutFamilies &cut : body.families)
+        for (const bool is_second : {true, false})
+        {
+          const meshfree::Worst &worst = is_second ? cut.second : cut.first;
+          const double median = is_second ? cut.median_second : cut.median_first;
+          const std::string what = name(cut.cut) + (is_second ? " second" : " first") +
+                                   " moments are off those of the visible part by ";
+          const auto at_worst = [&](const std::string &limit)
+          {
+            return what + base::to_percent(worst.value) + " at node " + id(found, worst.node) +
+                   ", more than " + limit;
+          };
+          if (cut.cut == FamilyCut::none)
+            continue; // judged as on any domain
+          if (required.ac && worst.value > ratio)
+            result.push_back("required ac: " + at_worst("h/horizon = " + base::to_percent(ratio)));
+          if (required.consistent && median > ratio)
+            result.push_back("required consistent: " + what + base::to_percent(median) +
+                             " in the median, more than h/horizon = " + base::to_percent(ratio));
+          if (required.moments && worst.value > *required.moments)
+            result.push_back("required moments=" + base::to_text(*required.moments, 5) + ": " +
+                             at_worst("that"));
+        }
+      return result;
+    }
+
+    void add_different(const Findings &found, std::vector<std::string> &complaints)
+    {
+      const std::vector<NodePair> &all = found.body->different;
+      if (found.body->is_different())
+        return;
+      for (std::size_t k = 0; k < std::min(most_named, all.size()); ++k)
+        complaints.push_back("outlier: the bond from node " + id(found, all[k].node) + " to node " +
+                             id(found, all[k].neighbour) + " has " + number(all[k].factor) +
+                             " times the weight of like bonds in the interior");
+      if (all.size() > most_named)
+        complaints.push_back("outliers: " + std::to_string(all.size() - most_named) +
+                             " more bonds near free surfaces and cracks (check.json)");
+    }
+  } // namespace
+
+  bool is_free_boundary(const std::string &word, const std::string &key)
+  {
+    const auto boundary = base::from_word<scene::Boundary>(word);
+    if (!boundary || *boundary == scene::Boundary::periodic)
+      throw InputError(key + " = '" + word +
+                       "' is not known; choose of 'constrained' (u is prescribed around the "
+                       "domain) and 'free' (the boundary of the domain is a free surface)");
+    return *boundary == scene::Boundary::free;
+  }
+
+  BodyCheck check_body(const GivenBody &body, const std::string &key,
+                       const physics::Kernel<2> &kernel, double spacing,
+                       meshfree::GivenWeights &weights, std::vector<double> &uncut_areas)
+  {
+    geometry::NodeCells<2> named; // places and ids are all that messages need
+    named.nodes = weights.cells->nodes;
+    named.n_free = weights.cells->n_free;
+    for (const std::size_t k : weights.cells->source)
+      named.source.push_back(static_cast<std::size_t>(weights.nodes.id[k]));
+    try
+    {
+      geometry::check_cracks(body.cracks, named, {}, kernel.horizon());
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(key + ": " + error.what());
+    }
+    const double tolerance =
+        std::max(geometry::on_crack * kernel.horizon(), 2 * weights.nodes.rounding);
+    const geometry::VisibleBody visible(body.parts, body.cracks, tolerance);
+    return meshfree::check_body(weights, uncut_areas, visible, kernel, spacing);
+  }
+
+  std::vector<std::string> body_complaints(const Findings &found, const Requirements &required)
+  {
+    const BodyCheck &body = *found.body;
+    std::vector<std::string> result;
+    if (!body.crossing.empty())
+      result.push_back(pairs_have(body.crossing.size()) +
+                       "bonds across a crack, which must be absent: " + list(found, body.crossing));
+    if (!body.missing.empty())
+      result.push_back(pairs_have(body.missing.size()) +
+                       "no bond, though no crack is between them and like pairs in the interior "
+                       "have one: " +
+                       list(found, body.missing));
+    if (body.correction.correction == Correction::whole_ball)
+      result.push_back("cause: weights are multiplied by V0/Vi, where V is " +
+                       body.correction.size.name +
+                       ": families near free surfaces and cracks are normalised to the full ball, "
+                       "and the forces of a pair do not balance; leave the factor out, or take the "
+                       "volume correction 2V0/(Vi+Vj)");
+    add_different(found, result);
+    for (const std::string &one : moment_complaints(found, required))
+      result.push_back(one);
+    const meshfree::SymmetryCheck &symmetry = body.symmetry;
+    if (required.symmetric &&
+        (symmetry.asymmetry > found.precision.moments || symmetry.n_unpaired > 0))
+      result.push_back("required symmetric: w C of a pair differs from end to end by up to " +
+                       base::to_percent(symmetry.asymmetry) + " of the largest, between nodes " +
+                       id(found, symmetry.nodes[0]) + " and " + id(found, symmetry.nodes[1]) +
+                       "; " + std::to_string(symmetry.n_unpaired) + " bonds without a partner");
+    return result;
+  }
+
+  std::vector<std::string> body_verdicts(const Findings &found)
+  {
+    const BodyCheck &body = *found.body;
+    std::vector<std::string> result;
+    if (const std::string text = weights_text(body); !text.empty())
+      result.push_back(text);
+    for (const CutFamilies &cut : body.families)
+      if (cut.cut != FamilyCut::none)
+        result.push_back(effect_text(cut, body));
+    if (body.n_at_ends > 0)
+      result.push_back(std::to_string(body.n_at_ends) +
+                       (body.n_at_ends == 1 ? " pair of nodes touches" : " pairs of nodes touch") +
+                       " the end of a crack and may have a bond or not");
+    return result;
+  }
+
+  report::Table body_table(const Findings &found)
+  {
+    report::Table table;
+    table.columns = {"families",      "number",  "first: median", "first: worst", "second: median",
+                     "second: worst", "at node", "visible/bulk",  "weights/bulk"};
+    for (const CutFamilies &cut : found.body->families)
+      table.rows.push_back(
+          {report::text_cell(name(cut.cut)), report::count_cell(cut.n),
+           report::error_cell(cut.median_first), report::error_cell(cut.first.value),
+           report::error_cell(cut.median_second), report::error_cell(cut.second.value),
+           report::text_cell(id(found, cut.second.node)), report::number_cell(cut.exact),
+           report::number_cell(cut.given)});
+    return table;
+  }
+
+  namespace
+  {
+    Json pairs_json(const Findings &found, const std::vector<NodePair> &pairs)
+    {
+      Json all = Json::array();
+      for (const NodePair &one : pairs)
+        all.push_back({found.nodes.id[one.node], found.nodes.id[one.neighbour]});
+      return all;
+    }
+
+    Json families_json(const Findings &found, const CutFamilies &cut)
+    {
+      const auto moments = [&](double median, const meshfree::Worst &worst)
+      {
+        return Json{{"median", median},
+                    {"worst", {{"value", worst.value}, {"node", found.nodes.id[worst.node]}}}};
+      };
+      Json json = {{"cut", word(cut.cut)},
+                   {"n", cut.n},
+                   {"first_moments", moments(cut.median_first, cut.first)},
+                   {"second_moments", moments(cut.median_second, cut.second)},
+                   {"visible_over_bulk", {{"median", cut.exact}, {"least", cut.least_exact}}},
+                   {"weights_over_bulk", {{"median", cut.given}, {"least", cut.least_given}}}};
+      for (const meshfree::ElasticRange &one : cut.elastic)
+        json["elastic"][one.name] = {
+            {"least", one.least}, {"median", one.median}, {"largest", one.largest}};
+      return json;
+    }
+  } // namespace
+
+  std::string body_json(const Findings &found)
+  {
+    const BodyCheck &body = *found.body;
+    const meshfree::FoundCorrection &correction = body.correction;
+    Json json = {{"n_families", body.n_families}, {"n_bonds", body.n_bonds}};
+    json["families"] = Json::array();
+    for (const CutFamilies &cut : body.families)
+      json["families"].push_back(families_json(found, cut));
+    json["correction"] = {
+        {"name", word(correction.correction)},
+        {"volume", correction.correction == Correction::none ? Json() : Json(correction.size.name)},
+        {"difference_before", correction.before},
+        {"difference_after", correction.after}};
+    json["crossing"] = pairs_json(found, body.crossing);
+    json["missing"] = pairs_json(found, body.missing);
+    json["different"] = Json::array();
+    for (const NodePair &one : body.different)
+      json["different"].push_back({{"node", found.nodes.id[one.node]},
+                                   {"neighbour", found.nodes.id[one.neighbour]},
+                                   {"factor", one.factor}});
+    json["n_compared"] = body.n_compared;
+    json["n_at_ends"] = body.n_at_ends;
+    return json.dump();
+  }
+} // namespace plumbline::app
