@@ -4,7 +4,9 @@
 #include "arguments.h"
 #include "base/communicator.h"
 #include "base/error.h"
+#include "certify.h"
 #include "check.h"
+#include "grade.h"
 #include "list.h"
 #include "moduli.h"
 #include "new_scene.h"
@@ -304,6 +306,55 @@ namespace
     set_action(command, request, options, weights);
   }
 
+  void add_certify(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<CertifyOptions>();
+    auto &command = *app.add_subcommand(
+        "certify", "Certify values of a solution: two independent ways, each with a bound");
+    command
+        .add_option("SCENE", options->scene_file,
+                    "Scene file (.prm or .json) with Output/points, Reference/method and a "
+                    "meshfree rule")
+        ->required();
+    command.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
+    command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+    command
+        .add_option("--reference-level", options->reference_level,
+                    "Mesh size of the Galerkin method: that of this level of the scene, from 1, "
+                    "the coarsest (default: the finest)")
+        ->check(CLI::Range(1u, most_levels));
+    command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+    command.add_flag("--quiet", options->quiet, "Print nothing but errors");
+    command.add_flag("--json", options->json, "Print certificate.json instead of the table");
+    set_action(command, request, options, certify);
+  }
+
+  void add_grade(CLI::App &app, Request &request)
+  {
+    const auto options = std::make_shared<GradeOptions>();
+    auto &command = *app.add_subcommand(
+        "grade", "Grade the values of another code by a certificate: digits, order, limit");
+    command
+        .add_option("FILE", options->files,
+                    "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
+                    "x,y,u1,u2 of a vector; a file for each grid")
+        ->required();
+    command.add_option("--problem", options->certificate, "certificate.json of 'certify'")
+        ->required();
+    command
+        .add_option(sizes_option, options->h,
+                    "Mesh size of each file, separated by commas, semicolons or blanks; may be "
+                    "repeated")
+        ->allow_extra_args(false);
+    command
+        .add_option("--require", options->required,
+                    "digits=N, order=P, limit=certified, separated by commas: exit with 1 if one "
+                    "does not hold of the finest grid")
+        ->allow_extra_args(false);
+    command.add_flag("--quiet", options->quiet, "Print nothing but errors");
+    set_action(command, request, options, grade);
+  }
+
   int print(const std::string &text)
   {
     std::cout << text;
@@ -415,6 +466,8 @@ namespace
         app, request, "strip", "Stationary crack: tip energy by meshfree and Galerkin methods",
         "Expected/strip fails, or a strip is too short", [](const auto &) { return strip_row(); });
     add_sample(app, request);
+    add_certify(app, request);
+    add_grade(app, request);
     add_moduli(app, request);
     add_weights(app, request);
     add_words(app, request);

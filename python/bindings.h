@@ -11,6 +11,7 @@ namespace plumbline::python
   void add_check(pybind11::module_ &module);
   void add_matrix(pybind11::module_ &module);
   void add_moduli(pybind11::module_ &module);
+  void add_grade(pybind11::module_ &module);
   void add_space(pybind11::module_ &module);
   void add_studies(pybind11::module_ &module);
 } // namespace plumbline::python

@@ -106,6 +106,7 @@ PYBIND11_MODULE(_core, module)
   add_check(module);
   add_matrix(module);
   add_moduli(module);
+  add_grade(module);
   add_space(module);
   add_studies(module);
 }

@@ -204,7 +204,9 @@ def card(path, root, pictures):
     (pictures / name).write_text(sketch(values, path.parent), encoding="utf-8")
     purpose = values.get("Purpose", "") or " ".join(scene["comments"][:1])
     refused = any(comment.startswith("Refused:") for comment in scene["comments"])
-    command = breakable(f"plumbline {command_of(values)} scenes/{path.parent.name}/{path.name}")
+    certified = [comment for comment in scene["comments"] if comment.startswith("Run: plumbline certify ")]
+    command = breakable(certified[0][len("Run: "):] if certified else
+                        f"plumbline {command_of(values)} scenes/{path.parent.name}/{path.name}")
     note = "<br><em>Refused, on purpose.</em>" if refused else ""
     title = path.stem.replace("_", "_<wbr>")
     return (f'<figure><img src="_static/gallery/{name}" alt="domain, nodes and one ball" loading="lazy">'
@@ -217,7 +219,8 @@ TITLES = {
     "meshes": "Meshes, scattered nodes and references", "state_based": "Variational state-based bars",
     "dynamics": "Transient analysis", "waves": "Dispersion", "griffith": "Dynamic fracture",
     "fracture": "Quasi-static fracture and stationary cracks", "random": "Random fields and uncertainty quantification",
-    "glass_ceramics": "Toughness of microstructures", "three_d": "Three dimensions", "check": "Weights of another code",
+    "glass_ceramics": "Toughness of microstructures", "three_d": "Three dimensions", "certified": "Certified benchmarks",
+    "check": "Weights of another code",
     "failures": "Cases where a method must fail, or a scene must be refused"}
 
 

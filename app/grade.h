@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::app
+{
+  constexpr auto sizes_option = "--h";
+
+  struct GradeOptions
+  {
+    std::vector<std::string>
+        files;                  ///< CSV with x,y,u of a scalar, x,y,u,v or x,y,u1,u2 of a vector
+    std::string certificate;    ///< file that 'certify' has written
+    std::vector<std::string> h; ///< mesh size of each file, separated as to_numbers() says
+    std::vector<std::string> required; ///< digits=N, order=P, limit=certified
+    bool quiet = false;
+    std::vector<scene::Override> overrides; ///< none
+  };
+
+  /// Grade another code's values by a certificate, see study::grade, and print the answer last.
+  /// @return  exit code: 0; 1: a requirement does not hold
+  /// @throws InputError  files or options that cannot be used; points that are not those of the
+  /// certificate
+  int grade(const GradeOptions &options);
+} // namespace plumbline::app

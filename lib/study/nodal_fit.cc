@@ -1,0 +1,90 @@
+#include "study/nodal_fit.h"
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/householder.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using dealii::Point;
+
+    constexpr unsigned int degree = 3, n_terms = (degree + 1) * (degree + 2) / 2;
+
+    /// Nodes of a fit: three for each coefficient, so that a lattice has five of them in each
+    /// direction and a corner four.
+    constexpr std::size_t most_nodes = 3 * n_terms;
+
+    /// The nodes nearest to a point, the nearest first; of equal distances, that of the smaller
+    /// number.
+    std::vector<std::size_t> nearest(const Point<2> &x, const std::vector<Point<2>> &nodes)
+    {
+      std::vector<std::size_t> order(nodes.size());
+      std::iota(order.begin(), order.end(), 0);
+      const std::size_t n = std::min(most_nodes, nodes.size());
+      std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), order.end(),
+                        [&](std::size_t a, std::size_t b)
+                        {
+                          const double of_a = x.distance_square(nodes[a]),
+                                       of_b = x.distance_square(nodes[b]);
+                          return of_a < of_b || (of_a == of_b && a < b);
+                        });
+      order.resize(n);
+      return order;
+    }
+
+    /// The value at a point of the polynomial about it, component by component.
+    void add_fit(const Point<2> &x, const std::vector<Point<2>> &nodes,
+                 const std::vector<double> &nodal, unsigned int n_components,
+                 std::vector<double> &values)
+    {
+      constexpr double on_node = 1e-9; // of the reach: the fit would divide by zero
+      const std::vector<std::size_t> near = nearest(x, nodes);
+      const double reach = x.distance(nodes[near.back()]);
+      if (x.distance(nodes[near.front()]) <= on_node * reach)
+      {
+        const double *const u = &nodal[near.front() * n_components];
+        values.insert(values.end(), u, u + n_components);
+        return;
+      }
+      dealii::FullMatrix<double> terms(near.size(), n_terms);
+      dealii::Vector<double> weights(near.size()), data(near.size()), coefficients(n_terms);
+      for (unsigned int k = 0; k < near.size(); ++k)
+      {
+        const dealii::Tensor<1, 2> at = (nodes[near[k]] - x) / reach;
+        weights[k] = 1 / at.norm(); // its square weighs the squares
+        unsigned int term = 0;
+        for (unsigned int i = 0; i <= degree; ++i)
+          for (unsigned int j = 0; i + j <= degree; ++j)
+            terms(k, term++) = weights[k] * std::pow(at[0], i) * std::pow(at[1], j);
+      }
+      const dealii::Householder<double> solver(terms);
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        for (unsigned int k = 0; k < near.size(); ++k)
+          data[k] = weights[k] * nodal[near[k] * n_components + c];
+        solver.least_squares(coefficients, data);
+        values.push_back(coefficients[0]);
+      }
+    }
+  } // namespace
+
+  std::vector<double> values_by_fit(const std::vector<Point<2>> &points,
+                                    const std::vector<Point<2>> &nodes,
+                                    const std::vector<double> &nodal, unsigned int n_components)
+  {
+    std::vector<double> values;
+    for (const Point<2> &x : points)
+      if (nodes.size() < n_terms)
+        values.insert(values.end(), n_components, std::numeric_limits<double>::quiet_NaN());
+      else
+        add_fit(x, nodes, nodal, n_components, values);
+    return values;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,173 @@
+// Certificates and grades as a user meets them: files, exit codes, messages.
+#include "command.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace
+{
+  using namespace plumbline::app;
+
+  const std::string points = "x,y\n0.1,0.2\n0.5,0.5\n0.31,0.73\n0.9,0.4\n";
+
+  std::string scene_with(const std::string &more = "")
+  {
+    write("certified.csv", points);
+    return write("certified.prm", "subsection Kernel\n set type = constant\nend\n"
+                                  "subsection Problem\n set solution = sin(3*x)*cos(2*y)\nend\n"
+                                  "subsection Methods\n set names = PA-AC\nend\n"
+                                  "subsection Study\n set regime = m\n set horizon = 0.25\n"
+                                  " set h = 1/8, 1/16, 1/32\nend\n"
+                                  "subsection Reference\n set method = Q2\nend\n"
+                                  "subsection Output\n set points = " +
+                                      write("certified.csv", points) + "\nend\n" + more);
+  }
+
+  /// A certificate, once for all tests of a process.
+  const fs::path &certificate_folder()
+  {
+    static const fs::path folder = []
+    {
+      fs::path made = temporary("certificate");
+      const Outcome outcome =
+          run("certify " + scene_with() + " -o " + made.string() + " --reference-level 2");
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+      return made;
+    }();
+    return folder;
+  }
+
+  std::string problem()
+  {
+    return " --problem " + (certificate_folder() / "certificate.json").string();
+  }
+
+  /// Values at the certified points: u (1 + factor) + h^p, in another order.
+  std::string values(const std::string &name, double factor, double h = 0, double p = 1)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    text << "u,y,x\n";
+    const nlohmann::json certificate = read_json(certificate_folder() / "certificate.json");
+    for (std::size_t i = certificate["points"].size(); i-- > 0;)
+    {
+      const nlohmann::json &one = certificate["points"][i];
+      text << one["value"][0].get<double>() * (1 + factor) + std::pow(h, p) << ','
+           << one["x"][1].get<double>() + 1e-11 << ',' << one["x"][0].get<double>() << '\n';
+    }
+    return write(name, text.str());
+  }
+} // namespace
+
+TEST(Certify, writes_the_same_certificate_each_time)
+{
+  const fs::path &folder = certificate_folder();
+  const nlohmann::json certificate = read_json(folder / "certificate.json");
+  EXPECT_EQ(certificate["schema"], 1);
+  ASSERT_EQ(certificate["points"].size(), 4u);
+  EXPECT_EQ(certificate["galerkin"]["h"], (std::vector<double>{1. / 16}));
+  EXPECT_EQ(certificate["meshfree"]["method"], "PA-AC");
+  EXPECT_LE(certificate["galerkin"]["error"].get<double>(),
+            certificate["points"][0]["bound"].get<double>());
+  expect_found(read(folder / "certificate.csv"), "x,y,u,bound,other,other_bound,difference,digits");
+  expect_found(read(folder / "certificate.md"), certificate["sha256"].get<std::string>());
+  const fs::path again = temporary("certificate_again");
+  const Outcome outcome =
+      run("certify " + scene_with() + " -o " + again.string() + " --reference-level 2");
+  EXPECT_EQ(read(again / "certificate.json"), read(folder / "certificate.json"));
+  // the answer is the last line
+  const std::string answer =
+      outcome.out.substr(outcome.out.rfind('\n', outcome.out.size() - 2) + 1);
+  EXPECT_EQ(answer.find("4 values certified to at least "), 0u) << answer;
+  expect_found(answer, " by Q2, confirmed to ");
+  fs::remove_all(again);
+}
+
+TEST(Certify, refuses_with_3_where_the_ways_disagree_and_writes_nothing)
+{
+  const fs::path folder = temporary("disagreement");
+  const auto expect_disagreement = [&](const std::string &rule, const std::string &reason)
+  {
+    const Outcome outcome = run("certify " + scene_with() + " -o " + folder.string() +
+                                " --set Methods/names=" + rule + " --quiet");
+    EXPECT_EQ(outcome.exit_code, 3) << rule << outcome.out;
+    EXPECT_FALSE(fs::exists(folder / "certificate.json"));
+    expect_found(outcome.err, "nothing is certified: " + reason);
+    for (const std::string x : {"0.1   0.2", "0.5   0.5", "0.31  0.73", "0.9   0.4"})
+      EXPECT_NE(outcome.err.find("\n" + x), std::string::npos) << outcome.err;
+  };
+  // by its own weights it tends to the local limit, whatever the horizon is
+  expect_disagreement("GFD", "Q2 and GFD disagree about ");
+}
+
+TEST(Certify, refuses_scenes_that_are_none)
+{
+  const std::string scene = scene_with();
+  expect_refused("certify " + scene + " --set Output/points=", "Output/points is empty");
+  expect_refused("certify " + scene + " --set Reference/method=none", "Reference/method = none");
+  expect_refused("certify " + scene + " --set Reference/method=IPA-AC", "is a meshfree rule");
+  expect_refused("certify " + scene + " --set Methods/names=Q1", "no meshfree rule");
+  expect_refused("certify " + scene + " --set Study/h=1/8,1/16", "2 mesh sizes");
+  expect_refused("certify " + scene + " --reference-level 4", "--reference-level = 4");
+  expect_refused("certify " + scene + " --set 'Problem/solution=a: x; b: y'", "2 cases");
+}
+
+TEST(Grade, of_exact_values_is_what_the_certificate_has)
+{
+  const Outcome outcome =
+      run("grade " + values("exact.csv", 0) + problem() + " --require digits=2");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "\nat least ");
+  const Outcome percent =
+      run("grade " + values("percent.csv", .01) + problem() + " --require digits=2");
+  EXPECT_EQ(percent.exit_code, 1);
+  expect_found(percent.out, "\n1 digits");
+  expect_found(percent.err, "required digits = 2: ");
+  // the certificate's own table is a file of values, too
+  const Outcome own =
+      run("grade " + (certificate_folder() / "certificate.csv").string() + problem());
+  EXPECT_EQ(own.exit_code, 0) << own.err;
+}
+
+TEST(Grade, of_a_series_has_order_and_limit)
+{
+  const auto series = [](double factor, double p)
+  {
+    std::string files;
+    for (const double h : {.025, .1, .05}) // in any order
+      files += values("series_" + std::to_string(factor) + std::to_string(p) + std::to_string(h) +
+                          ".csv",
+                      factor, h, p) +
+               " ";
+    return "grade " + files + problem() + " --h .025,.1,.05 ";
+  };
+  const Outcome first = run(series(0, 1) + "--require order=0.99,limit=certified");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  expect_found(first.out, "; order 1; converges to the certified solution: ");
+  EXPECT_EQ(run(series(0, 1) + "--require order=1.8 --quiet").exit_code, 1);
+  EXPECT_EQ(run(series(0, 2) + "--require order=1.99").exit_code, 0);
+  const Outcome biased = run(series(.02, 2) + "--require limit=certified");
+  EXPECT_EQ(biased.exit_code, 1);
+  expect_found(biased.out, "converges to another limit: ");
+}
+
+TEST(Grade, refuses_other_points_and_options)
+{
+  const std::string file = values("graded.csv", 0), end = problem();
+  const std::string text = read(file);
+  expect_refused("grade " +
+                     write("less.csv", text.substr(0, text.rfind('\n', text.size() - 2) + 1)) + end,
+                 "lacks 1 of the 4 points of the certificate, e.g. (0.1, 0.2)");
+  expect_refused("grade " + write("more.csv", text + "1,0.2,0.6\n") + end,
+                 "line 6: (0.6, 0.2) is no point of the certificate");
+  expect_refused("grade " + write("twice.csv", text + "1,0.2,0.1\n") + end, "is in line 5, too");
+  expect_refused("grade " + write("no_u.csv", "x,y\n0.1,0.2\n") + end, "no column u");
+  expect_refused("grade " + file + end + " --h .1,.05", "2 mesh sizes for 1 files");
+  expect_refused("grade " + file + end + " --h 0", "not above 0");
+  expect_refused("grade " + file + end + " --require digits=2.5", "--require 'digits=2.5'");
+  expect_refused("grade " + file + end + " --require speed=1", "--require 'speed=1'");
+  expect_refused("grade " + file + " --problem " + file, "certificate '");
+  expect_refused("grade " + file + " --problem " + write("old.json", "{\"schema\": 0}"),
+                 "schema = 0, but this version reads schema 1");
+}

@@ -1,0 +1,50 @@
+"""Grades are those of the command, from arrays."""
+import json
+
+import numpy as np
+import pytest
+
+import plumbline
+
+
+@pytest.fixture
+def file(root):
+    return root / "scenes" / "certified" / "NLB_01.certificate.json"
+
+
+def certified(file):
+    points = json.loads(file.read_text())["points"]
+    return np.array([one["x"] for one in points]), np.array([one["value"][0] for one in points])
+
+
+def test_values_are_graded_in_any_order(file):
+    points, values = certified(file)
+    order = np.arange(len(points))[::-1]
+    found = plumbline.grade(points[order], values[order] * 1.01, file)
+    grade, = found["grades"]
+    assert grade["rms"] == pytest.approx(.01, rel=1e-9)
+    assert not grade["is_at_least"]
+    exact, = plumbline.grade(points, values, file)["grades"]
+    assert exact["is_at_least"] and exact["digits"] >= 6
+    assert found["limit"] == "cannot be decided"
+
+
+def test_a_series_has_an_order_and_a_limit(file):
+    points, values = certified(file)
+    h = [.1, .05, .025]
+    second = plumbline.grade(points, [values + one**2 for one in h], file, h=h)
+    assert second["order"] == pytest.approx(2, abs=1e-3)
+    assert second["limit"] == "converges to the certified solution"
+    biased = plumbline.grade(points, [values * 1.05 + one**2 for one in h], file, h=h)
+    assert biased["limit"] == "converges to another limit"
+    assert biased["limit_distance"] == pytest.approx(.05, rel=.01)
+
+
+def test_other_points_are_refused(file):
+    points, values = certified(file)
+    with pytest.raises(plumbline.InputError, match="row 0 is no point of the certificate"):
+        plumbline.grade(points + 1e-3, values, file)
+    with pytest.raises(plumbline.InputError, match="give all of them"):
+        plumbline.grade(points[1:], values[1:], file)
+    with pytest.raises(plumbline.InputError, match="shape"):
+        plumbline.grade(points, values[1:], file)
