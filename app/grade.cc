@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -104,32 +105,42 @@ namespace plumbline::app
       bool is_limit_certified = false;
     };
 
+    constexpr const char *certified = "certified"; ///< value of `--require limit`
+
     Required parse_required(const std::vector<std::string> &words)
     {
+      constexpr double most_digits = 15;
       Required required;
+      /// By key: takes a value, or says no.
+      const std::map<std::string, std::function<bool(const std::string &)>> take = {
+          {"digits",
+           [&](const std::string &value)
+           {
+             const std::vector<double> n = to_numbers("--require digits", {value});
+             if (n.size() != 1 || n[0] != std::floor(n[0]) || n[0] < 0 || n[0] > most_digits)
+               return false;
+             required.digits = static_cast<unsigned int>(n[0]);
+             return true;
+           }},
+          {"order",
+           [&](const std::string &value)
+           {
+             const std::vector<double> p = to_numbers("--require order", {value});
+             if (p.size() == 1)
+               required.order = p[0];
+             return p.size() == 1;
+           }},
+          {"limit", [&](const std::string &value)
+           { return required.is_limit_certified = value == certified; }}};
       for (const std::string &list : words)
       {
         std::istringstream parts(list);
         for (std::string part; std::getline(parts, part, ',');)
         {
           const auto equals = part.find('=');
-          const std::string key = part.substr(0, equals),
-                            value = equals == std::string::npos ? "" : part.substr(equals + 1);
-          if (key == "limit" && value == "certified")
-          {
-            required.is_limit_certified = true;
-            continue;
-          }
-          constexpr double most_digits = 15;
-          const bool is_number = (key == "digits" || key == "order") && !value.empty();
-          const std::vector<double> numbers =
-              is_number ? to_numbers("--require " + key, {value}) : std::vector<double>{};
-          const bool is_whole = numbers.size() == 1 && numbers[0] == std::floor(numbers[0]);
-          if (key == "order" && numbers.size() == 1)
-            required.order = numbers[0];
-          else if (key == "digits" && is_whole && numbers[0] >= 0 && numbers[0] <= most_digits)
-            required.digits = static_cast<unsigned int>(numbers[0]);
-          else
+          const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+          const auto found = take.find(part.substr(0, equals));
+          if (found == take.end() || value.empty() || !found->second(value))
             throw InputError("--require '" + part +
                              "' is not known; write digits=N (0 to 15), order=P or "
                              "limit=certified, separated by commas");

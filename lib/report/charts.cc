@@ -4,7 +4,6 @@
 #include "report/formats.h"
 #include "report/maps.h"
 #include "report/page_script.h"
-#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -235,10 +234,8 @@ namespace plumbline::report
       plot.title = chart.title;
       plot.x_label = x_label(results, chart.kind, axis);
       plot.y_label = is_iterations ? "iterations [1]"
-                                   : "error: " + error_words(results.decisive_error) +
-                                         (study::is_truncation(results.decisive_error)
-                                              ? " [unit of the load]"
-                                              : " [unit of the solution]");
+                                   : "error: " + error_words(results.decisive_error) + " [" +
+                                         unit_of_errors(results) + "]";
       // with a fixed mesh errors fall as the horizon grows: no order to compare with
       plot.has_slopes = chart.kind == ChartKind::convergence && axis == study::Axis::mesh_size;
       std::vector<double> places;

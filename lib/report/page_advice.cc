@@ -53,6 +53,7 @@ namespace plumbline::report::page
                         {"tied", joined(choice.tied)},
                         {"h", rounded(choice.h)},
                         {"error", rounded_error(choice.error)},
+                        {"unit", unit_of_errors(results)},
                         {"seconds", rounded_seconds(choice.seconds)}});
       }
       return list;

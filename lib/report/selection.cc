@@ -128,6 +128,12 @@ namespace plumbline::report
     return study::Axis::mesh_size;
   }
 
+  std::string unit_of_errors(const study::StudyResults &results)
+  {
+    return study::is_truncation(results.decisive_error) ? "unit of the load"
+                                                        : "unit of the solution";
+  }
+
   std::string error_words(const std::string &error)
   {
     std::string words = error;

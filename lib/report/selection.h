@@ -52,6 +52,9 @@ namespace plumbline::report
   /// What varies over the levels, as the trends say.
   study::Axis axis_of(const study::StudyResults &results, const Case &one);
 
+  /// Of decisive errors, in words.
+  std::string unit_of_errors(const study::StudyResults &results);
+
   /// "nodal Linf | exact" in words: "nodal L∞ against exact".
   std::string error_words(const std::string &error);
 
