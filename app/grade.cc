@@ -10,12 +10,39 @@
 #include "study/grade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <iostream>
-#include <map>
+#include <limits>
 #include <numeric>
 #include <sstream>
+
+namespace plumbline::app
+{
+  namespace
+  {
+    enum class Requirement
+    {
+      digits,
+      order,
+      limit
+    };
+
+    /// What can be required of a limit.
+    enum class RequiredLimit
+    {
+      certified
+    };
+  } // namespace
+} // namespace plumbline::app
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<app::Requirement> = std::array{"digits", "order", "limit"};
+  template <>
+  inline constexpr auto words<app::RequiredLimit> = std::array{"certified"};
+} // namespace plumbline::base
 
 namespace plumbline::app
 {
@@ -105,46 +132,49 @@ namespace plumbline::app
       bool is_limit_certified = false;
     };
 
-    constexpr const char *certified = "certified"; ///< value of `--require limit`
+    /// One requirement, as on the command line.
+    void add_required(const std::string &part, Required &required)
+    {
+      const auto equals = part.find('=');
+      const auto kind = base::from_word<Requirement>(part.substr(0, equals));
+      const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+      const auto refuse = [&]
+      {
+        throw InputError("--require '" + part +
+                         "' is not known; write digits=N (0 to 15), order=P or limit=certified, "
+                         "separated by commas");
+      };
+      if (!kind || value.empty())
+        refuse();
+      if (*kind == Requirement::limit)
+      {
+        if (!base::from_word<RequiredLimit>(value))
+          refuse();
+        required.is_limit_certified = true;
+        return;
+      }
+      const std::vector<double> numbers = to_numbers("--require " + base::word(*kind), {value});
+      if (numbers.size() != 1)
+        refuse();
+      if (*kind == Requirement::order)
+      {
+        required.order = numbers[0];
+        return;
+      }
+      constexpr double most_digits = 15;
+      if (numbers[0] != std::floor(numbers[0]) || !(numbers[0] >= 0 && numbers[0] <= most_digits))
+        refuse();
+      required.digits = static_cast<unsigned int>(numbers[0]);
+    }
 
     Required parse_required(const std::vector<std::string> &words)
     {
-      constexpr double most_digits = 15;
       Required required;
-      /// By key: takes a value, or says no.
-      const std::map<std::string, std::function<bool(const std::string &)>> take = {
-          {"digits",
-           [&](const std::string &value)
-           {
-             const std::vector<double> n = to_numbers("--require digits", {value});
-             if (n.size() != 1 || n[0] != std::floor(n[0]) || n[0] < 0 || n[0] > most_digits)
-               return false;
-             required.digits = static_cast<unsigned int>(n[0]);
-             return true;
-           }},
-          {"order",
-           [&](const std::string &value)
-           {
-             const std::vector<double> p = to_numbers("--require order", {value});
-             if (p.size() == 1)
-               required.order = p[0];
-             return p.size() == 1;
-           }},
-          {"limit", [&](const std::string &value)
-           { return required.is_limit_certified = value == certified; }}};
       for (const std::string &list : words)
       {
         std::istringstream parts(list);
         for (std::string part; std::getline(parts, part, ',');)
-        {
-          const auto equals = part.find('=');
-          const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
-          const auto found = take.find(part.substr(0, equals));
-          if (found == take.end() || value.empty() || !found->second(value))
-            throw InputError("--require '" + part +
-                             "' is not known; write digits=N (0 to 15), order=P or "
-                             "limit=certified, separated by commas");
-        }
+          add_required(part, required);
       }
       return required;
     }

@@ -58,6 +58,15 @@ namespace
     }
     return write(name, text.str());
   }
+
+  /// Bad input; `grade` writes no files.
+  void expect_no_grade(const std::string &arguments, const std::string &message)
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    expect_found(outcome.err, message, arguments);
+  }
 } // namespace
 
 TEST(Certify, writes_the_same_certificate_each_time)
@@ -156,18 +165,18 @@ TEST(Grade, refuses_other_points_and_options)
 {
   const std::string file = values("graded.csv", 0), end = problem();
   const std::string text = read(file);
-  expect_refused("grade " +
-                     write("less.csv", text.substr(0, text.rfind('\n', text.size() - 2) + 1)) + end,
-                 "lacks 1 of the 4 points of the certificate, e.g. (0.1, 0.2)");
-  expect_refused("grade " + write("more.csv", text + "1,0.2,0.6\n") + end,
-                 "line 6: (0.6, 0.2) is no point of the certificate");
-  expect_refused("grade " + write("twice.csv", text + "1,0.2,0.1\n") + end, "is in line 5, too");
-  expect_refused("grade " + write("no_u.csv", "x,y\n0.1,0.2\n") + end, "no column u");
-  expect_refused("grade " + file + end + " --h .1,.05", "2 mesh sizes for 1 files");
-  expect_refused("grade " + file + end + " --h 0", "not above 0");
-  expect_refused("grade " + file + end + " --require digits=2.5", "--require 'digits=2.5'");
-  expect_refused("grade " + file + end + " --require speed=1", "--require 'speed=1'");
-  expect_refused("grade " + file + " --problem " + file, "certificate '");
-  expect_refused("grade " + file + " --problem " + write("old.json", "{\"schema\": 0}"),
-                 "schema = 0, but this version reads schema 1");
+  expect_no_grade(
+      "grade " + write("less.csv", text.substr(0, text.rfind('\n', text.size() - 2) + 1)) + end,
+      "lacks 1 of the 4 points of the certificate, e.g. (0.1, 0.2)");
+  expect_no_grade("grade " + write("more.csv", text + "1,0.2,0.6\n") + end,
+                  "line 6: (0.6, 0.2) is no point of the certificate");
+  expect_no_grade("grade " + write("twice.csv", text + "1,0.2,0.1\n") + end, "is in line 5, too");
+  expect_no_grade("grade " + write("no_u.csv", "x,y\n0.1,0.2\n") + end, "no column u");
+  expect_no_grade("grade " + file + end + " --h .1,.05", "2 mesh sizes for 1 files");
+  expect_no_grade("grade " + file + end + " --h 0", "not above 0");
+  expect_no_grade("grade " + file + end + " --require digits=2.5", "--require 'digits=2.5'");
+  expect_no_grade("grade " + file + end + " --require speed=1", "--require 'speed=1'");
+  expect_no_grade("grade " + file + " --problem " + file, "certificate '");
+  expect_no_grade("grade " + file + " --problem " + write("old.json", "{\"schema\": 0}"),
+                  "schema = 0, but this version reads schema 1");
 }

@@ -168,10 +168,10 @@ TEST(Certificate, is_refused_if_one_way_is_broken)
   const Broken of_wrong_horizon("PA-AC",
                                 [&](auto &problem) { problem.kernel = make_kernel(shorter, .2); });
   EXPECT_FALSE(certify_by(of_wrong_horizon).refused().empty());
-  const scene::Scene other = make_scene({{"Kernel/limit", "-1/2 Laplace"}});
-  const Broken of_half_the_diffusion("PA-AC", [&](auto &problem)
-                                     { problem.kernel = make_kernel(other, .25); });
-  EXPECT_FALSE(certify_by(of_half_the_diffusion).refused().empty());
+  const scene::Scene other = make_scene({{"Kernel/limit", "-Laplace"}});
+  const Broken of_twice_the_diffusion("PA-AC", [&](auto &problem)
+                                      { problem.kernel = make_kernel(other, .25); });
+  EXPECT_FALSE(certify_by(of_twice_the_diffusion).refused().empty());
 }
 
 TEST(Certificate, is_refused_if_changes_do_not_fall_so_that_there_is_no_bound)
