@@ -264,7 +264,8 @@ namespace plumbline::app
                 << certificate.least_digits() << " digits; errors are relative to "
                 << text(certificate.size) << "\n\n"
                 << report::to_text(table_of(found, !h.empty())) << '\n'
-                << answer_of(found, !h.empty()) << '\n';
+                << report::wrapped(answer_of(found, !h.empty()), report::summary_columns, 2)
+                << '\n';
     const std::vector<std::string> missed = complaints(required, found);
     for (const std::string &one : missed)
       std::cerr << one << '\n';
