@@ -243,7 +243,7 @@ def test_problems_without_a_matrix_are_refused(root, scene, set, words):
     (lambda p: plumbline.matrix(problem_of("scalar"), "FA") @ [1, 2], "give the values at all nodes"),
     (lambda p: plumbline.matrix(problem_of("scalar"), "FA").with_constraint([1]), "are unknown"),
     (lambda p: plumbline.matrix(problem_of("scalar"), "FA").save("a.txt"), r"\.npz .*\.mtx"),
-    (lambda p: space.matrix(problem_in_space("scalar"), "Q2"), "for two dimensions only"),
+    (lambda p: space.matrix(problem_in_space("scalar"), "Q3"), "for two dimensions only"),
     (lambda p: space.matrix(problem_in_space("nodes"), "FA", .5), "omit h"),
 ])
 def test_bad_input_is_refused(call, words):

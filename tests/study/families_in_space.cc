@@ -3,7 +3,7 @@
 #include "algebra/symbol.h"
 #include "analysis/statics.h"
 #include "method/discretisation_in_space.h"
-#include "physics/state_based.h"
+#include "physics/waves.h"
 #include "scene/problem.h"
 #include "study/transient.h"
 #include "tests/study/space_scene.h"
@@ -29,7 +29,7 @@ namespace
                           {"Material/nu", "0.4"},    {"Problem/solution", "0, 0, 0"}};
   const Settings fixed_horizon = {{"Study/regime", "m"}, {"Study/horizon", "1/4"}};
 
-  std::shared_ptr<const Method> method_of(const std::string &name)
+  std::shared_ptr<const Method> galerkin(const std::string &name)
   {
     return find_method(available(), name, "test");
   }
@@ -48,7 +48,7 @@ namespace
   Errors errors_of(const std::string &method, const std::string &h)
   {
     const auto problem = problem_of(with(fixed_horizon, {{"Study/h", h}}));
-    const auto solution = analysis::solve(*method_of(method), problem);
+    const auto solution = analysis::solve(*galerkin(method), problem);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     constexpr int n_points = 2000;
@@ -73,12 +73,15 @@ TEST(FamiliesInSpace, are_exact_for_the_fields_they_hold)
   const std::string quadratic = "x^2*y^2*z^2 - 3*x^2 + y*z", trilinear = "x*y*z + 2*x - z",
                     quadratics = "x^2 + y*z, 2*x*z - y^2*x, z^2*x^2 + x*y",
                     trilinears = "x*y*z, y - 2*x*z, 3*z + x*y";
+  const std::vector<Settings> models = {{}, tensor, solid};
   for (const std::string &boxes : {std::string("0,0,0 : 1,1,1"), l_shape})
     for (const auto &[name, of_scalar, of_vector] :
          {std::tuple("Q2", quadratic, quadratics), {"DGQ1", trilinear, trilinears}})
-      for (const Settings &model : {Settings(), tensor, solid})
+      for (const Settings &model : models)
       {
-        const bool is_box = boxes != l_shape;
+        const bool is_box = boxes != l_shape, is_solid = &model == &models.back();
+        if (is_solid && !is_box)
+          continue; // it takes long
         const Settings settings =
             with(model, {{"Problem/solution", model.empty() ? of_scalar : of_vector},
                          {"Domain/boxes", boxes},
@@ -87,7 +90,7 @@ TEST(FamiliesInSpace, are_exact_for_the_fields_they_hold)
                          {"Study/h", "1/4"},
                          {"Methods/names", name}});
         const auto problem = problem_of(settings);
-        const auto found = analysis::solve(*method_of(name), problem);
+        const auto found = analysis::solve(*galerkin(name), problem);
         double worst = 0;
         for (std::size_t i = 0; i < found.nodal.size(); ++i)
           worst =
@@ -104,13 +107,16 @@ TEST(FamiliesInSpace, are_exact_for_the_fields_they_hold)
         EXPECT_EQ(static_cast<bool>(found.gradient), name == std::string("Q2"));
         if (found.gradient)
         {
-          const double step = 1e-4, ahead = problem.solution->value(x + Point(step, 0, 0), 0),
-                       behind = problem.solution->value(x - Point(step, 0, 0), 0);
+          const double step = 1e-4, ahead = problem.solution->value({x[0] + step, x[1], x[2]}, 0),
+                       behind = problem.solution->value({x[0] - step, x[1], x[2]}, 0);
           EXPECT_NEAR(found.gradient(x, 0)[0], (ahead - behind) / (2 * step), 1e-7);
         }
         // what the space holds has exact averages, too
-        for (const Record &record : run(make_scene(settings)).records)
-          EXPECT_LT(record["averages L2 | exact"], 1e-10) << name;
+        if (model.empty())
+        {
+          EXPECT_LT(run(make_scene(settings)).records.front()["averages L2 | exact"], 1e-10)
+              << name;
+        }
       }
 }
 
@@ -136,7 +142,7 @@ TEST(FamiliesInSpace, are_asymptotically_compatible)
   {
     const auto results =
         run(make_scene(with(model, {{"Methods/names", "Q2, DGQ1"},
-                                    {"Study/h", "1/4, 1/6, 1/8, 1/12"},
+                                    {"Study/h", "1/4, 1/5, 1/6, 1/8"},
                                     {"Study/norms", "averages L2"},
                                     {"Study/decisive error", "averages L2 | exact"}})));
     ASSERT_EQ(results.trends.size(), 2u);
@@ -153,12 +159,12 @@ TEST(FamiliesInSpace, have_estimates_that_bound_their_errors)
     for (const std::string name : {"Q2", "DGQ1"})
     {
       const auto results = run(make_scene(
-          with(with(model, fixed_horizon), {{"Study/h", "1/8, 1/12"},
+          with(with(model, fixed_horizon), {{"Study/h", "1/8"},
                                             {"Domain/boxes", "0,0,0 : 1,1/2,1/2"},
                                             {"Methods/names", name},
                                             {"Reference/method", name},
                                             {"Study/decisive error", "averages L2 | reference"}})));
-      ASSERT_EQ(results.references.size(), 2u);
+      ASSERT_EQ(results.references.size(), 1u);
       for (const Record &record : results.records)
       {
         const double error = record["averages L2 | exact"],
@@ -173,62 +179,70 @@ TEST(FamiliesInSpace, have_estimates_that_bound_their_errors)
 TEST(FamiliesInSpace, agree_with_Q1_within_the_estimates)
 {
   for (const auto &[boxes, holes] : {std::pair(l_shape, std::string()), {"0,0,0 : 1,1,1", hole}})
+  {
+    const Settings settings = {{"Domain/boxes", boxes},
+                               {"Domain/holes", holes},
+                               {"Problem/solution", ""},
+                               {"Problem/load", "sin(3*x)*y + z"},
+                               {"Problem/constraint", "x*y"},
+                               {"Problem/local solution", "0"}, // not used
+                               {"Study/h", "1/8"},
+                               {"Methods/names", "Q1"},
+                               {"Study/norms", "averages L2"},
+                               {"Study/decisive error", "averages L2 | reference"}};
+    std::map<std::string, StudyResults> by_reference;
+    for (const std::string name : {"Q1", "Q2", "DGQ1"})
+      by_reference[name] = run(make_scene(with(settings, {{"Reference/method", name}})));
+    const double of_Q1 = by_reference["Q1"].references.front().estimate;
     for (const std::string name : {"Q2", "DGQ1"})
     {
-      const auto results = run(make_scene({{"Domain/boxes", boxes},
-                                           {"Domain/holes", holes},
-                                           {"Problem/solution", ""},
-                                           {"Problem/load", "sin(3*x)*y + z"},
-                                           {"Problem/constraint", "x*y"},
-                                           {"Problem/local solution", "0"}, // not used
-                                           {"Study/h", "1/8"},
-                                           {"Methods/names", "Q1"},
-                                           {"Reference/method", name},
-                                           {"Study/norms", "averages L2"},
-                                           {"Study/decisive error", "averages L2 | reference"}}));
-      ASSERT_EQ(results.references.size(), 1u);
-      const auto of_Q1 = run(make_scene({{"Domain/boxes", boxes},
-                                         {"Domain/holes", holes},
-                                         {"Problem/solution", ""},
-                                         {"Problem/load", "sin(3*x)*y + z"},
-                                         {"Problem/constraint", "x*y"},
-                                         {"Problem/local solution", "0"},
-                                         {"Study/h", "1/8"},
-                                         {"Methods/names", "Q1"},
-                                         {"Reference/method", "Q1"},
-                                         {"Study/norms", "averages L2"},
-                                         {"Study/decisive error", "averages L2 | reference"}}));
+      const StudyResults &results = by_reference[name];
       const double difference = results.records.front()["averages L2 | reference"];
       EXPECT_GT(difference, 0);
-      EXPECT_LT(difference, results.references.front().estimate + of_Q1.references.front().estimate)
-          << name << ", " << boxes;
+      EXPECT_LT(difference, results.references.front().estimate + of_Q1) << name << ", " << boxes;
     }
+  }
 }
+
+namespace
+{
+  algebra::Symbol symbol_of(const std::string &method, const problem::Problem<3> &problem)
+  {
+    return algebra::Symbol(*galerkin(method)->discretise_in_space(problem)->waves());
+  }
+} // namespace
 
 TEST(FamiliesInSpace, have_the_speeds_of_long_waves)
 {
-  for (const std::string name : {"Q2", "DGQ1"})
+  const algebra::Vector3 n = {1. / 3, 2. / 3, 2. / 3};
+  for (const auto &[name, contraction] : {std::pair("Q2", 16.), {"DGQ1", 4.}})
     for (const Settings &model : {Settings(), tensor})
     {
-      const auto problem = problem_of(with(model, {{"Study/h", "1/8"}}));
+      const auto problem = problem_of(with(model, {{"Study/h", "1/4"}}));
       const auto limit = problem.kernel.limit();
-      const auto discretisation = method_of(name)->discretise_in_space(problem);
-      const algebra::Symbol symbol(*discretisation->waves());
-      const algebra::Vector3 n = {1. / 3, 2. / 3, 2. / 3};
       const std::vector<double> exact = model.empty()
                                             ? std::vector<double>{limit.diffusion}
                                             : std::vector<double>{3 * limit.mu, limit.mu, limit.mu};
-      const auto speeds = symbol.long_waves(n);
+      const auto speeds = symbol_of(name, problem).long_waves(n);
       ASSERT_EQ(speeds.size(), exact.size());
       for (std::size_t i = 0; i < exact.size(); ++i)
         EXPECT_NEAR(speeds[i] / exact[i], 1, 1e-11) << name;
-      // waves of 16 and of 8 cells, relative to those of Q1
-      const algebra::Symbol of_Q1(*method_of("Q1")->discretise_in_space(problem)->waves());
-      const double k = M_PI;
-      const double difference =
-          std::abs(symbol.waves(k, n).front().squared / of_Q1.waves(k, n).front().squared - 1);
-      EXPECT_GT(difference, 1e-6) << name;
-      EXPECT_LT(difference, 1e-2) << name;
+
+      // shorter ones by those of the operator itself
+      const auto error = [&](const std::string &h)
+      {
+        const auto level = problem_of(with(model, {{"Study/h", h}}));
+        const double k = M_PI / 4;
+        return std::abs(symbol_of(name, level).waves(k, n).front().squared /
+                            physics::exact_wave<3>(level.kernel, {},
+                                                   model.empty()
+                                                       ? physics::Polarisation::scalar
+                                                       : physics::Polarisation::longitudinal,
+                                                   k)
+                                .squared -
+                        1);
+      };
+      EXPECT_NEAR(std::log2(error("1/4") / error("1/8")), std::log2(contraction), .3) << name;
     }
 }
 
@@ -244,6 +258,7 @@ TEST(FamiliesInSpace, move_exactly_where_they_hold_the_field)
                                      {"Time/schemes", "Runge-Kutta"},
                                      {"Study/m", "2"},
                                      {"Study/h", "1/4"},
+                                     {"Study/norms", "nodal Linf"},
                                      {"Methods/names", name}});
       const Methods all = available();
       const Methods chosen = choose_methods(scene, all);
@@ -260,7 +275,7 @@ TEST(FamiliesInSpace, move_exactly_where_they_hold_the_field)
 TEST(FamiliesInSpace, have_the_memory_that_is_foretold)
 {
   for (const auto &[name, model, n] :
-       {std::tuple("Q2", Settings(), 32u), {"DGQ1", tensor, 24u}, {"DGQ2", Settings(), 24u}})
+       {std::tuple("Q2", Settings(), 24u), {"DGQ1", tensor, 16u}, {"DGQ2", Settings(), 16u}})
   {
     const std::string h = "1/" + std::to_string(n);
     const auto scene = make_scene(with(model, {{"Study/h", h}, {"Methods/names", name}}));
@@ -270,7 +285,7 @@ TEST(FamiliesInSpace, have_the_memory_that_is_foretold)
     size.depth = n;
     size.n_components = model.empty() ? 1 : 3;
     const auto bytes = static_cast<double>(run(scene).records.front().cost.peak_bytes);
-    const double expected = method_of(name)->expected_bytes(size);
+    const double expected = galerkin(name)->expected_bytes(size);
     EXPECT_GT(expected, bytes / 2) << name;
     EXPECT_LT(expected, bytes * 2) << name;
   }
