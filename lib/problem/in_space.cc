@@ -197,6 +197,7 @@ namespace plumbline::problem
   Problem<3> at_spacing(Problem<3> problem, double h)
   {
     problem.lattice = problem.lattice.at_spacing(h);
+    problem.make_tetrahedra = {};
     return problem;
   }
 

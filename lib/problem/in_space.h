@@ -2,6 +2,7 @@
 
 #include "geometry/cube_lattice.h"
 #include "geometry/node_cells.h"
+#include "geometry/tetrahedral_mesh.h"
 #include "physics/chebyshev_in_space.h"
 #include "physics/kernel.h"
 #include "problem/problem.h"
@@ -49,6 +50,9 @@ namespace plumbline::problem
     /// Scattered nodes of meshfree methods; null: the centres of the lattice's cells. Galerkin
     /// methods and averages have the lattice all the same.
     std::shared_ptr<const geometry::NodeCells<3>> cells = {};
+    /// Makes those of Galerkin methods on tetrahedra, at least a horizon wide around Ω; empty: six
+    /// for each cube of the lattice.
+    std::function<geometry::TetrahedralMesh()> make_tetrahedra = {};
 
     double h() const { return lattice.h(); }
     double horizon() const { return kernel.horizon(); }
@@ -64,7 +68,7 @@ namespace plumbline::problem
   /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
   Problem<3> complete(Problem<3> problem);
 
-  /// The problem on cubes of another size, with the same fields.
+  /// The problem on cubes of another size, with the same fields, and tetrahedra of these cubes.
   /// @throws InputError  sides that are not multiples of h
   Problem<3> at_spacing(Problem<3> problem, double h);
 

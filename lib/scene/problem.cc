@@ -164,6 +164,14 @@ namespace plumbline::scene
     if (!given.cells && !scene.methods.nodes.are_lattice_centres())
       given.cells = std::make_shared<const geometry::NodeCells<3>>(
           make_cells_in_space(scene, level, given.lattice));
+    if (const double perturbation = scene.methods.nodes.perturbation; perturbation > 0)
+      given.make_tetrahedra =
+          [lattice = given.lattice, level, perturbation, seed = scene.geometry.seed]
+      {
+        const int n_layers = geometry::layers_within(level.horizon, level.h);
+        return geometry::with_moved_vertices(geometry::six_per_cube(lattice, n_layers),
+                                             perturbation * level.h, seed);
+      };
     const ProblemSection &section = scene.problem;
     if (!section.solutions.empty())
       given.solution = field("Problem/solution", section.solutions[case_index].expression);

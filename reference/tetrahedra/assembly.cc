@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace plumbline::reference
@@ -236,5 +237,25 @@ namespace plumbline::reference
       add_local(space, of_face.diffusion() / std::pow(horizon, 3), rows);
     }
     return to_matrix(rows, unit);
+  }
+
+  double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b)
+  {
+    double worst = 0, largest = 0;
+    std::map<unsigned int, double> changes;
+    for (std::size_t row = 0; row < std::min(a.n_rows(), b.n_rows()); ++row)
+    {
+      changes.clear();
+      for (std::size_t k = a.start[row]; k < a.start[row + 1]; ++k)
+      {
+        changes[a.column[k]] = a.value[k];
+        largest = std::max(largest, std::abs(a.value[k]));
+      }
+      for (std::size_t k = b.start[row]; k < b.start[row + 1]; ++k)
+        changes[b.column[k]] -= b.value[k];
+      for (const auto &[column, change] : changes)
+        worst = std::max(worst, std::abs(change));
+    }
+    return worst / largest;
   }
 } // namespace plumbline::reference

@@ -16,4 +16,8 @@ namespace plumbline::reference
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,
                                        const physics::Kernel<3> &kernel, std::size_t n_rows,
                                        unsigned int refinement);
+
+  /// The largest difference of two entries in rows that both have, relative to the largest entry
+  /// there.
+  double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b);
 } // namespace plumbline::reference

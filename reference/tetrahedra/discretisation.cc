@@ -5,6 +5,7 @@
 #include "method/limit_proof.h"
 #include "method/linear_equations.h"
 #include "method/sparse_discretisation.h"
+#include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/field.h"
 #include "reference/tetrahedra/repeated_rows.h"
@@ -19,29 +20,29 @@ namespace plumbline::reference
   {
     using dealii::Point;
 
-    /// Of entries, beyond which the error is some 1e-5 of the diagonal.
-    constexpr unsigned int refinement = 1;
-
     class GalerkinOnTetrahedra : public method::DiscretisationInSpace,
                                  public method::HasLinearEquations<3>
     {
     public:
       GalerkinOnTetrahedra(const problem::Problem<3> &problem, bool is_continuous)
-          : lattice_(problem.lattice)
+          : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra)
       {
-        const int n_layers = layers_within(problem.horizon(), problem.h());
-        space_ = std::make_shared<const TetrahedralSpace>(
-            std::make_shared<const TetrahedralMesh>(six_per_cube(lattice_, n_layers)),
-            is_continuous);
+        const auto mesh = std::make_shared<const TetrahedralMesh>(
+            is_of_cubes_ ? geometry::six_per_cube(
+                               lattice_, geometry::layers_within(problem.horizon(), problem.h()))
+                         : problem.make_tetrahedra());
+        space_ = std::make_shared<const TetrahedralSpace>(mesh, is_continuous);
         if (space_->n_free() == 0)
           throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
-        const RepeatedRows entries(problem.kernel, problem.h(), is_continuous, refinement);
-        method::PartitionedRows rows = method::part(entries.on(*space_, lattice_), n_unknowns());
+        method::PartitionedRows rows = method::part(make_rows(problem), n_unknowns());
         free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
         constrained_ = std::move(rows.constrained);
         options_.solver = problem.settings.solver.linear_solver;
         options_.iteration = problem.settings.solver.iteration;
-        describe(problem, entries);
+        diagnostics_.n_neighbours = static_cast<unsigned int>(
+            (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
+        if (is_continuous) // the error of entries is told, and leaves linear fields exact
+          diagnostics_.limit = method::prove_galerkin(problem);
       }
 
       std::size_t n_unknowns() const override { return space_->n_free(); }
@@ -117,6 +118,8 @@ namespace plumbline::reference
           result.nodes.push_back(space_->support(dof));
         result.nodal.assign(values.begin(), values.begin() + n);
         const auto field = std::make_shared<const TetrahedralField>(space_, std::move(values));
+        if (!is_of_cubes_)
+          result.volumes = volumes(*space_);
         result.averages = field->averages(lattice_);
         result.value = [field](const Point<3> &x, unsigned int) { return field->value(x); };
         if (space_->is_continuous())
@@ -124,21 +127,37 @@ namespace plumbline::reference
         return result;
       }
 
-      void describe(const problem::Problem<3> &problem, const RepeatedRows &entries)
+      /// The rows of the free unknowns, and a note on their error.
+      algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
       {
-        diagnostics_.n_neighbours = static_cast<unsigned int>(
-            (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
-        if (space_->is_continuous())
-          diagnostics_.limit = method::prove_galerkin(problem);
-        const RepeatedRows coarser(problem.kernel, problem.h(), space_->is_continuous(),
-                                   refinement - 1);
+        const bool is_continuous = space_->is_continuous();
+        algebra::CsrMatrix matrix;
+        std::string change;
+        if (is_of_cubes_)
+        {
+          const auto rows = [&](unsigned int refinement)
+          { return RepeatedRows(problem.kernel, problem.h(), is_continuous, refinement); };
+          const RepeatedRows fine = rows(1);
+          matrix = fine.on(*space_, lattice_);
+          change = "a coarser rule changes them by " + base::to_text(fine.difference(rows(0)), 1);
+        }
+        else
+        {
+          constexpr std::size_t n_sampled = 4;
+          const auto rows = [&](std::size_t n, unsigned int refinement)
+          { return assemble_by_faces(*space_, problem.kernel, n, refinement); };
+          matrix = rows(n_unknowns(), 0);
+          change = "a finer rule changes a sample of them by " +
+                   base::to_text(difference(rows(std::min(n_sampled, n_unknowns()), 1), matrix), 1);
+        }
         diagnostics_.notes.push_back(
-            "entries by quadrature over pairs of faces; a coarser rule changes them by " +
-            base::to_text(entries.difference(coarser), 1) + " of the diagonal at most" +
-            (space_->is_continuous() ? ", and linear fields are exact with any rule" : ""));
+            "entries by quadrature over pairs of faces; " + change + " of the diagonal at most" +
+            (is_continuous ? ", and linear fields are exact with any rule" : ""));
+        return matrix;
       }
 
       geometry::CubeLattice lattice_;
+      bool is_of_cubes_; ///< the mesh is that of the lattice
       std::shared_ptr<const TetrahedralSpace> space_;
       std::shared_ptr<const algebra::CsrMatrix> free_;
       algebra::CsrMatrix constrained_;

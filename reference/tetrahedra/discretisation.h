@@ -5,9 +5,8 @@
 
 namespace plumbline::reference
 {
-  /// Continuous linear functions, or constants, on six tetrahedra per cube of the problem's
-  /// lattice. Entries by quadrature over pairs of faces that keeps linear fields exact, see
-  /// FacePotential.
+  /// Continuous linear functions, or constants, on the problem's tetrahedra. Entries by quadrature
+  /// over pairs of faces that keeps linear fields exact, see FacePotential.
   /// @throws InputError  a kernel that refuse_tetrahedra() refuses
   /// @throws NumericalError  no unknown is free
   std::unique_ptr<method::DiscretisationInSpace>

@@ -1,6 +1,7 @@
 #include "reference/tetrahedra/field.h"
 
 #include "base/error.h"
+#include "geometry/polyhedron_clip.h"
 
 #include <deal.II/base/parallel.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -41,6 +42,50 @@ namespace plumbline::reference
         values[corner] = slopes[corner] * (x - next);
       }
       return values;
+    }
+    /// visit(cube, volume / h³, corners' linear functions at the centroid) of what the cell has in
+    /// common with the cubes of a lattice.
+    template <class Visit>
+    void for_common_parts(const TetrahedralMesh &mesh, std::size_t cell,
+                          const geometry::CubeLattice &lattice, const Visit &visit)
+    {
+      constexpr double rounding = 1e-9; // of h
+      const double h = lattice.h();
+      const geometry::Cuboid box = box_of(mesh, cell);
+      std::array<int, 3> from{}, to{};
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        from[d] = static_cast<int>(std::floor((box.lower[d] - lattice.origin()[d]) / h + rounding));
+        to[d] = static_cast<int>(std::ceil((box.upper[d] - lattice.origin()[d]) / h - rounding));
+      }
+      if (to[0] - from[0] == 1 && to[1] - from[1] == 1 && to[2] - from[2] == 1)
+      {
+        constexpr double quarter = 1. / 4;
+        visit(lattice.number(from), determinant(mesh, cell) / (6 * std::pow(h, 3)),
+              std::array<double, 4>{quarter, quarter, quarter, quarter});
+        return;
+      }
+      const auto slopes = gradients(mesh, cell);
+      geometry::for_each_index(
+          from, to,
+          [&](const std::array<int, 3> &cube)
+          {
+            Point<3> lower;
+            for (unsigned int d = 0; d < 3; ++d)
+              lower[d] = lattice.coordinate(d, cube[d]);
+            // in units of h from the cube's corner, where a linear function is at + slope·s >= 0
+            const auto at = linear_functions(mesh, cell, lower);
+            geometry::ClippedPolyhedron part({0, 0, 0}, {1, 1, 1});
+            for (unsigned int corner = 0; corner < 4; ++corner)
+              if (!part.clip(-h * slopes[corner], at[corner]))
+                return;
+            if (part.volume() < rounding * rounding)
+              return;
+            const geometry::SolidMoments common =
+                part.placed([](const Point<3> &s) { return s; }).moments();
+            visit(lattice.number(cube), common.volume,
+                  linear_functions(mesh, cell, Point<3>(lower + h * common.centroid)));
+          });
     }
   } // namespace
 
@@ -122,21 +167,19 @@ namespace plumbline::reference
     const auto &n = lattice.n_cells();
     std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-      if (mesh.is_inside[cell] != 0)
-      {
-        Point<3> centre;
-        double mean = 0;
-        for (unsigned int corner = 0; corner < 4; ++corner)
-        {
-          centre += mesh.vertices[mesh.cells[cell][corner]] / 4;
-          mean += values_[space_->dof(cell, corner)] / 4;
-        }
-        std::array<int, 3> cube{};
-        for (unsigned int d = 0; d < 3; ++d)
-          cube[d] = static_cast<int>(std::floor((centre[d] - lattice.origin()[d]) / lattice.h()));
-        sums[lattice.number(cube)] +=
-            mean * determinant(mesh, cell) / (6 * std::pow(lattice.h(), 3));
-      }
+    {
+      if (mesh.is_inside[cell] == 0)
+        continue;
+      std::array<double, 4> values{};
+      for (unsigned int corner = 0; corner < 4; ++corner)
+        values[corner] = values_[space_->dof(cell, corner)];
+      for_common_parts(mesh, cell, lattice,
+                       [&](std::size_t cube, double share, const std::array<double, 4> &functions)
+                       {
+                         for (unsigned int corner = 0; corner < 4; ++corner)
+                           sums[cube] += share * functions[corner] * values[corner];
+                       });
+    }
     std::vector<double> result;
     lattice.for_each_cell([&](const std::array<int, 3> &cube)
                           { result.push_back(sums[lattice.number(cube)]); });
@@ -178,6 +221,17 @@ namespace plumbline::reference
       for (unsigned int corner = 0; corner < 4; ++corner)
         if (const unsigned int dof = space.dof(cell, corner); dof < result.size())
           result[dof] += of_cells[cell][corner];
+    return result;
+  }
+
+  std::vector<double> volumes(const TetrahedralSpace &space)
+  {
+    constexpr double share = 1. / 24; // a quarter of determinant / 6
+    std::vector<double> result(space.n_free());
+    for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+      for (unsigned int corner = 0; corner < 4; ++corner)
+        if (const unsigned int dof = space.dof(cell, corner); dof < result.size())
+          result[dof] += share * determinant(space.mesh(), cell);
     return result;
   }
 } // namespace plumbline::reference

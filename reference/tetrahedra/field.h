@@ -23,7 +23,8 @@ namespace plumbline::reference
     /// @throws NumericalError  a point outside Ω
     dealii::Tensor<1, 3> gradient(const dealii::Point<3> &x) const;
 
-    /// Over the cells of a lattice, each of which is a union of cells of the mesh.
+    /// Over the cells of a lattice, whose cells of Ω and those of the mesh fill the same space.
+    /// Exact to round-off.
     std::vector<double> averages(const geometry::CubeLattice &lattice) const;
 
   private:
@@ -40,4 +41,7 @@ namespace plumbline::reference
 
   /// ∫ b φ_i of the free unknowns over Ω, by a rule of degree 5 on each cell.
   std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space);
+
+  /// A quarter of the cells around each free vertex, or the free cells. [length^3]
+  std::vector<double> volumes(const TetrahedralSpace &space);
 } // namespace plumbline::reference

@@ -41,21 +41,16 @@ namespace plumbline::reference
     };
   } // namespace
 
-  int layers_within(double horizon, double h)
-  {
-    constexpr double rounding = 1e-9;
-    return static_cast<int>(std::ceil(horizon / h - rounding));
-  }
-
   RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
                              unsigned int refinement)
-      : is_continuous_(is_continuous), n_layers_(layers_within(kernel.horizon(), h))
+      : is_continuous_(is_continuous), n_layers_(geometry::layers_within(kernel.horizon(), h))
   {
     const double side = is_continuous ? 2 * h : h; // with one free vertex, or six free cells
     const geometry::CubeLattice lattice(
         {{{dealii::Point<3>(), dealii::Point<3>(side, side, side)}}, {}}, h);
     const TetrahedralSpace space(
-        std::make_shared<const TetrahedralMesh>(six_per_cube(lattice, n_layers_)), is_continuous);
+        std::make_shared<const TetrahedralMesh>(geometry::six_per_cube(lattice, n_layers_)),
+        is_continuous);
     const Places places(lattice, n_layers_, is_continuous);
     const int own = n_layers_ + (is_continuous ? 1 : 0);
     const algebra::CsrMatrix matrix =

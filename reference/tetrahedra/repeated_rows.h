@@ -6,9 +6,6 @@
 
 namespace plumbline::reference
 {
-  /// Layers of cubes as wide as the horizon.
-  int layers_within(double horizon, double h);
-
   /// The rows that assemble_by_faces makes of a mesh of six tetrahedra per cube. Translations map
   /// the unknowns of one cube onto those of another, so that the rows of one vertex, or of the six
   /// cells of one cube, are all that there is to integrate.
@@ -20,7 +17,8 @@ namespace plumbline::reference
                  unsigned int refinement);
 
     /// Those of the free unknowns.
-    /// @param space  on six_per_cube(lattice, layers_within(horizon, h)), of the same kind
+    /// @param space  on geometry::six_per_cube(lattice, layers_within(horizon, h)), of the same
+    /// kind
     algebra::CsrMatrix on(const TetrahedralSpace &space,
                           const geometry::CubeLattice &lattice) const;
 

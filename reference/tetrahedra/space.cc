@@ -52,13 +52,7 @@ namespace plumbline::reference
   {
     std::vector<char> is_free = mesh_->is_inside;
     if (is_continuous_)
-    {
-      is_free.assign(mesh_->vertices.size(), 1);
-      for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
-        for (const unsigned int vertex : mesh_->cells[cell])
-          if (mesh_->is_inside[cell] == 0)
-            is_free[vertex] = 0;
-    }
+      is_free = geometry::inner_vertices(*mesh_);
     number_.resize(is_free.size());
     support_.resize(is_free.size());
     n_free_ = static_cast<std::size_t>(std::count(is_free.begin(), is_free.end(), 1));

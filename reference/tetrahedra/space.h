@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/tetrahedra/tetrahedral_mesh.h"
+#include "geometry/tetrahedral_mesh.h"
 
 #include <boost/container/static_vector.hpp>
 
@@ -8,6 +8,8 @@
 
 namespace plumbline::reference
 {
+  using geometry::TetrahedralMesh;
+
   /// Continuous linear functions or constants on the cells of a mesh. Free unknowns come first:
   /// vertices with all their cells in Ω, or the cells in Ω.
   class TetrahedralSpace

@@ -22,6 +22,8 @@ namespace
   using namespace plumbline;
   using namespace plumbline::reference;
   using dealii::Point;
+  using geometry::layers_within;
+  using geometry::six_per_cube;
 
   geometry::CubeLattice cubes(double side, double h)
   {
@@ -246,7 +248,7 @@ TEST(TetrahedralEntries, of_kernels_with_breaks_and_of_polynomials_are_sums)
 TEST(TetrahedralEntries, on_lattices_are_repeated)
 {
   const auto lattice = cubes(1.5, .5);
-  const double horizon = .8;
+  const double horizon = .6;
   const auto kernel = kernel_of("constant", horizon);
   for (const bool is_continuous : {true, false})
   {
@@ -334,4 +336,32 @@ TEST(TetrahedralFields, are_linear_where_they_should_be)
               rule.weight(q) * determinant(space->mesh(), cell) * phi[corner] * load.value(x, 0);
         }
   EXPECT_NEAR(sum, moment, 1e-14);
+}
+
+TEST(Tetrahedra, are_moved_inside_the_domain_alone_and_keep_their_volume)
+{
+  const auto lattice = cubes(1, .25);
+  const auto regular = six_per_cube(lattice, 1),
+             moved = geometry::with_moved_vertices(regular, .45 * .25, 3);
+  const auto is_inner = geometry::inner_vertices(regular);
+  unsigned int n_moved = 0;
+  for (std::size_t vertex = 0; vertex < regular.vertices.size(); ++vertex)
+  {
+    const double move = regular.vertices[vertex].distance(moved.vertices[vertex]);
+    EXPECT_LE(move, is_inner[vertex] != 0 ? .45 * .25 * std::sqrt(3.) : 0);
+    n_moved += move > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(n_moved, 27u);
+  double volume = 0;
+  for (std::size_t cell = 0; cell < moved.cells.size(); ++cell)
+  {
+    EXPECT_GE(determinant(moved, cell), .0999 * determinant(regular, cell));
+    volume += moved.is_inside[cell] != 0 ? determinant(moved, cell) / 6 : 0;
+  }
+  EXPECT_NEAR(volume, 1, 1e-13);
+  double nodes = 0;
+  for (const double share :
+       volumes(TetrahedralSpace(std::make_shared<const geometry::TetrahedralMesh>(moved), false)))
+    nodes += share;
+  EXPECT_NEAR(nodes, 1, 1e-13);
 }

@@ -1,4 +1,6 @@
 // Galerkin methods on tetrahedra, from the scene to verdicts.
+#include "method/linear_equations.h"
+#include "scene/problem.h"
 #include "tests/study/space_scene.h"
 
 #include <gtest/gtest.h>
@@ -39,21 +41,24 @@ TEST(StaticsOnTetrahedra, have_exact_averages_for_linear_fields)
 
 TEST(StaticsOnTetrahedra, converge_like_those_on_cubes)
 {
-  const auto results = run(make_scene(
-      {{"Methods/names", "P1, DGP0, Q1, DGQ0"}, {"Study/m", "2"}, {"Study/h", "1/4, 1/8, 1/16"}}));
-  std::map<std::string, std::vector<double>> errors, averages;
-  for (const Record &record : results.records)
+  const auto errors = [](const std::string &methods, const std::string &h, const std::string &error)
   {
-    ASSERT_EQ(record.failure, "");
-    errors[record.key.method].push_back(record["nodal Linf | exact"]);
-    averages[record.key.method].push_back(record["averages L2 | exact"]);
-  }
-  EXPECT_NEAR(std::log2(errors["P1"][1] / errors["P1"][2]), 2, .25);
-  EXPECT_NEAR(std::log2(averages["P1"][1] / averages["P1"][2]), 2, .25);
-  EXPECT_NEAR(errors["P1"][2] / errors["Q1"][2], 1, .5);
+    std::map<std::string, std::vector<double>> found;
+    for (const Record &record :
+         run(make_scene({{"Methods/names", methods}, {"Study/m", "2"}, {"Study/h", h}})).records)
+    {
+      EXPECT_EQ(record.failure, "");
+      found[record.key.method].push_back(record[error]);
+    }
+    return found;
+  };
+  const auto linear = errors("P1, Q1", "1/8, 1/16", "nodal Linf | exact");
+  EXPECT_NEAR(std::log2(linear.at("P1")[0] / linear.at("P1")[1]), 2, .25);
+  EXPECT_NEAR(linear.at("P1")[1] / linear.at("Q1")[1], 1, .5);
   // constants on cells are not compatible on either, and stay far away
-  for (const std::string method : {"DGP0", "DGQ0"})
-    EXPECT_LT(std::log2(errors[method][1] / errors[method][2]), .6) << method;
+  const auto constant = errors("DGP0, DGQ0", "1/6, 1/12", "nodal Linf | exact");
+  for (const auto &[method, found] : constant)
+    EXPECT_LT(std::log2(found[0] / found[1]), .6) << method;
 }
 
 TEST(StaticsOnTetrahedra, may_be_the_reference_with_an_estimate_that_bounds_the_error)
@@ -124,5 +129,66 @@ TEST(MethodsOnTetrahedra, have_the_memory_that_is_foretold)
                  peak = static_cast<double>(run(scene).records.front().cost.peak_bytes);
     EXPECT_GT(expected, peak / 2) << name;
     EXPECT_LT(expected, peak * 2) << name;
+  }
+}
+
+TEST(StaticsOnTetrahedra, that_are_moved_are_exact_for_linear_fields)
+{
+  const auto results = run(make_scene({{"Problem/solution", "3*x + 2*y - z + 1"},
+                                       {"Methods/names", "P1"},
+                                       {"Methods/perturbation", "0.3"},
+                                       {"Domain/boxes", "0,0,0 : 1,3/4,1/2"},
+                                       {"Study/m", "1.5"},
+                                       {"Study/norms", "nodal Linf, averages L2"},
+                                       {"Study/h", "1/4"}}));
+  const Record &record = results.records.front();
+  ASSERT_EQ(record.failure, "");
+  EXPECT_LT(record["nodal Linf | exact"], 1e-11);
+  EXPECT_LT(record["averages L2 | exact"], 1e-11); // of all parts of cells in cubes
+  EXPECT_TRUE(std::any_of(record.notes.begin(), record.notes.end(),
+                          [](const std::string &note)
+                          { return note.find("a sample of them") != std::string::npos; }));
+}
+
+TEST(StaticsOnTetrahedra, that_are_moved_lose_little)
+{
+  const auto error = [](const std::string &perturbation)
+  {
+    const auto results = run(make_scene({{"Methods/names", "P1"},
+                                         {"Methods/perturbation", perturbation},
+                                         {"Domain/boxes", "0,0,0 : 1,3/4,1/2"},
+                                         {"Study/m", "1.5"},
+                                         {"Study/norms", "nodal L2, averages L2"},
+                                         {"Study/decisive error", "averages L2 | exact"},
+                                         {"Study/h", "1/4"}}));
+    return results.records.front()["averages L2 | exact"];
+  };
+  const double regular = error("0"), moved = error("0.15");
+  EXPECT_NE(regular, moved);
+  EXPECT_LT(moved, 1.5 * regular);
+}
+
+TEST(StaticsOnTetrahedra, show_their_equations)
+{
+  const auto scene = make_scene({{"Study/h", "1/4"}, {"Study/m", "1.5"}});
+  const auto problem =
+      scene::make_problem_in_space(scene, 0, scene.study.series.front().levels.front());
+  const auto discretisation = find_method(available(), "P1", "test")->discretise_in_space(problem);
+  const auto shown = dynamic_cast<const method::HasLinearEquations<3> *>(discretisation.get());
+  ASSERT_NE(shown, nullptr);
+  const auto equations = shown->equations(problem);
+  EXPECT_EQ(equations.n_free, 27u);
+  EXPECT_EQ(equations.rows.n_rows(), 27u);
+  EXPECT_EQ(equations.constraint.size(), equations.nodes.size() - 27);
+  ASSERT_EQ(equations.load.size(), 27u);
+  for (std::size_t row = 0; row < 27; ++row)
+  {
+    // in rows of linear fields nothing is left, and the local limit of the load's test is h³ b
+    double sum = 0;
+    for (std::size_t k = equations.rows.start[row]; k < equations.rows.start[row + 1]; ++k)
+      sum += equations.rows.value[k] *
+             (equations.nodes[equations.rows.column[k]] * dealii::Point<3>(1, 2, 3) + 1);
+    EXPECT_NEAR(sum, 0, 1e-13);
+    EXPECT_NEAR(equations.load[row] * 64, problem.load(equations.nodes[row], 0), .5);
   }
 }

@@ -32,9 +32,11 @@ namespace plumbline::scene
              "x and y, in three dimensions x, y and z; {h} in its name selects one file for each "
              "level (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes, and on scattered nodes in "
              "three dimensions, the node cells are Voronoi cells.");
-    keys.add("perturbation", nodes.perturbation, between(0, .49),
-             "Random displacement of centres by up to this multiple of h along each axis "
-             "(Geometry/seed). Needs a mesh, or Domain/dimension = 3.");
+    keys.add(
+        "perturbation", nodes.perturbation, between(0, .49),
+        "Random displacement of centres by up to this multiple of h along each axis "
+        "(Geometry/seed). Needs a mesh, or Domain/dimension = 3, where vertices of tetrahedra (P1, "
+        "DGP0) inside the domain move, too.");
     keys.add("load", loads_are_averages, "nodes", "cells",
              "Right-hand sides of meshfree methods: the load at the nodes, or its averages over "
              "the node cells.");

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace plumbline::reference
+namespace plumbline::geometry
 {
   /// A conforming mesh of tetrahedra that fills Ω and its collar.
   struct TetrahedralMesh
@@ -25,5 +25,17 @@ namespace plumbline::reference
   /// Vertex (i, j, k), counted from the lower corner of these cubes, is number i + n (j + m k),
   /// with n and m vertices along x and y; the cells of cube (i, j, k) are 6 c ... 6 c + 5 where c
   /// is its number, counted alike.
-  TetrahedralMesh six_per_cube(const geometry::CubeLattice &lattice, int n_layers);
-} // namespace plumbline::reference
+  TetrahedralMesh six_per_cube(const CubeLattice &lattice, int n_layers);
+
+  /// Layers of cubes as wide as the horizon.
+  int layers_within(double horizon, double h);
+
+  /// The mesh with each vertex inside Ω moved by up to `most` along each axis, uniformly, with a
+  /// seed, the same on every machine. A move is halved until no cell is left with less than a tenth
+  /// of its volume.
+  /// @param most  >= 0 [length]
+  TetrahedralMesh with_moved_vertices(TetrahedralMesh mesh, double most, unsigned int seed);
+
+  /// Of each vertex, whether all cells around it are in Ω.
+  std::vector<char> inner_vertices(const TetrahedralMesh &mesh);
+} // namespace plumbline::geometry
