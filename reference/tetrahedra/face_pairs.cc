@@ -106,36 +106,33 @@ namespace plumbline::reference
       add(factor, x, y);
       add(factor, y, x);
     };
-    // along s, on which distances depend linearly, integrands are polynomials inside the horizon
-    const auto &radial = physics::gauss(4 + refinement), &angular = physics::gauss(6 + refinement);
-    for (unsigned int i = 0; i < radial.size(); ++i)
-      for (unsigned int j = 0; j < angular.size(); ++j)
-        for (unsigned int k = 0; k < angular.size(); ++k)
-          for (unsigned int l = 0; l < angular.size(); ++l)
+    constexpr unsigned int n_along_line = 6;
+    const auto &gauss = physics::gauss(n_along_line + refinement);
+    for (unsigned int j = 0; j < gauss.size(); ++j)
+      for (unsigned int k = 0; k < gauss.size(); ++k)
+        for (unsigned int l = 0; l < gauss.size(); ++l)
+        {
+          const double a = gauss.point(j)[0], b = gauss.point(k)[0], c = gauss.point(l)[0];
+          weight = gauss.weight(j) * gauss.weight(k) * gauss.weight(l);
+          if (n_shared == 3) // sec. 5.2.1
           {
-            const double s = radial.point(i)[0], a = angular.point(j)[0], b = angular.point(k)[0],
-                         c = angular.point(l)[0];
-            weight = radial.weight(i) * angular.weight(j) * angular.weight(k) * angular.weight(l) *
-                     s * s * s;
-            if (n_shared == 3) // sec. 5.2.1, (5.23) ff.
-            {
-              const double factor = a * a * b;
-              add_both(factor, {s, s * (1 - a + a * b)}, {s * (1 - a * b * c), s * (1 - a)});
-              add_both(factor, {s, s * a * (1 - b + b * c)}, {s * (1 - a * b), s * a * (1 - b)});
-              add_both(factor, {s * (1 - a * b * c), s * a * (1 - b * c)}, {s, s * a * (1 - b)});
-            }
-            else if (n_shared == 2) // sec. 5.2.2
-            {
-              const double factor = a * a;
-              add(factor, {s, s * a * c}, {s * (1 - a * b), s * a * (1 - b)});
-              add(factor * b, {s, s * a}, {s * (1 - a * b * c), s * a * b * (1 - c)});
-              add(factor * b, {s * (1 - a * b), s * a * (1 - b)}, {s, s * a * b * c});
-              add(factor * b, {s * (1 - a * b * c), s * a * b * (1 - c)}, {s, s * a});
-              add(factor * b, {s * (1 - a * b * c), s * a * (1 - b * c)}, {s, s * a * b});
-            }
-            else // sec. 5.2.3
-              add_both(b, {s, s * a}, {s * b, s * b * c});
+            const double factor = a * a * b;
+            add_both(factor, {1, 1 - a + a * b}, {1 - a * b * c, 1 - a});
+            add_both(factor, {1, a * (1 - b + b * c)}, {1 - a * b, a * (1 - b)});
+            add_both(factor, {1 - a * b * c, a * (1 - b * c)}, {1, a * (1 - b)});
           }
+          else if (n_shared == 2) // sec. 5.2.2
+          {
+            const double factor = a * a;
+            add(factor, {1, a * c}, {1 - a * b, a * (1 - b)});
+            add(factor * b, {1, a}, {1 - a * b * c, a * b * (1 - c)});
+            add(factor * b, {1 - a * b, a * (1 - b)}, {1, a * b * c});
+            add(factor * b, {1 - a * b * c, a * b * (1 - c)}, {1, a});
+            add(factor * b, {1 - a * b * c, a * (1 - b * c)}, {1, a * b});
+          }
+          else // sec. 5.2.3
+            add_both(b, {1, a}, {b, b * c});
+        }
     return rule;
   }
 
@@ -161,11 +158,12 @@ namespace plumbline::reference
       for (std::size_t q = 0; q < n; ++q)
       {
         const auto &[x1, x2, y1, y2] = rule.points[first + q];
-        squares[q] = (x[0] - y[0] + x1 * (x[1] - x[0]) + x2 * (x[2] - x[1]) - y1 * (y[1] - y[0]) -
-                      y2 * (y[2] - y[1]))
-                         .norm_square();
+        squares[q] =
+            (x1 * (x[1] - x[0]) + x2 * (x[2] - x[1]) - y1 * (y[1] - y[0]) - y2 * (y[2] - y[1]))
+                .norm_square();
       }
-      sum += potential_.sum(squares.data(), &rule.weights[first], static_cast<unsigned int>(n));
+      sum += potential_.sum_of_rays(squares.data(), &rule.weights[first],
+                                    static_cast<unsigned int>(n));
     }
     return f.area() * g.area() * sum;
   }

@@ -53,11 +53,12 @@ namespace plumbline::reference
       std::vector<std::array<double, 3>> points;
       std::vector<double> weights; ///< they add up to 1
     };
-    /// Pairs of points of two triangles whose first vertices, or sides, are shared.
+    /// Pairs of points of two triangles whose first vertices, or sides, are shared: ends of rays
+    /// from the first vertex, in which both points move and distances are linear.
     struct TouchingRule
     {
       std::vector<std::array<double, 4>> points; ///< ξ of the first, then of the second
-      std::vector<double> weights;               ///< they add up to 1
+      std::vector<double> weights;               ///< they add up to 4, for ∫_0^1 s³ ds = 1/4
     };
 
     const Rule &rule_for(const PairFace &f, const PairFace &g) const;

@@ -80,6 +80,35 @@ namespace plumbline::reference
     return sum;
   }
 
+  double FacePotential::sum_of_rays(const double *squares, const double *weights,
+                                    unsigned int n) const
+  {
+    // ∫ s³ (s r)^k ds up to s = min(1, end / r) is R^(k+4) / ((k+4) r⁴), R = min(r, end)
+    double sum = 0;
+    std::array<double, most_points> reach, value; // filled up to n
+    for (const Part &part : parts_)
+    {
+      for (unsigned int q = 0; q < n; ++q)
+      {
+        reach[q] = std::min(std::sqrt(squares[q]), part.end);
+        value[q] = 0;
+      }
+      for (std::size_t k = part.powers.size(); k-- > 0;)
+      {
+        const double power = part.powers[k] / static_cast<double>(k + 4);
+        for (unsigned int q = 0; q < n; ++q)
+          value[q] = value[q] * reach[q] + power;
+      }
+      for (unsigned int q = 0; q < n; ++q)
+      {
+        const double cube = reach[q] * reach[q] * reach[q];
+        sum += weights[q] * cube * (value[q] * reach[q] + part.inverse / 3) /
+               (squares[q] * squares[q]);
+      }
+    }
+    return sum;
+  }
+
   std::string FacePotential::refuse(const physics::Kernel<3> &kernel)
   {
     const std::string remedy = "; take Q1 or DGQ0, or Kernel/type = constant, linear-decay, 1/r, "

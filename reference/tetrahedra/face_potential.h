@@ -34,12 +34,15 @@ namespace plumbline::reference
     /// Why there is no such function of a kernel, and the remedy; empty: there is.
     static std::string refuse(const physics::Kernel<3> &kernel);
 
-    /// At most as many points as one call of sum() takes.
+    /// At most as many points as one call of sum() or sum_of_rays() takes.
     static constexpr unsigned int most_points = 64;
 
     /// Σ weights f(r) at n points. [1]
     /// @param squares  r² > 0
     double sum(const double *squares, const double *weights, unsigned int n) const;
+
+    /// Σ weights ∫_0^1 s³ f(s r) ds at n points, exact along s. [1]
+    double sum_of_rays(const double *squares, const double *weights, unsigned int n) const;
 
     /// Where it is not smooth, in horizons; ascending, the last is 1.
     std::vector<double> ends() const;
