@@ -346,18 +346,17 @@ namespace plumbline::meshfree
   {
     const View seen = view_of(body, *given.cells, kernel.horizon());
     const std::vector<char> is_bulk = bulk_of(given.given, seen);
-    const BulkBonds as_given(given, is_bulk, spacing, [](std::size_t, std::size_t) { return 1.; });
+    const BulkBonds as_given(given, is_bulk, spacing);
     BodyCheck check;
     check.spacing = spacing;
     check.n_families = given.given.families.size();
     for (const Family<2> &family : given.given.families)
       check.n_bonds += family.bonds.size();
     check_pairs(given, seen, body, as_given, check);
-    check.correction =
-        find_correction(given, as_given, seen.is_cut, is_bulk, seen.area, kernel, spacing);
-    const BulkBonds bulk(given, is_bulk, spacing,
-                         [&](std::size_t i, std::size_t j)
-                         { return check.correction.factor(i, j); });
+    check.correction = find_correction(given, as_given, seen.is_cut, is_bulk, seen.area, kernel);
+    const BulkBonds bulk = as_given.without([&](std::size_t i, std::size_t j)
+                                            { return check.correction.factor(i, j); },
+                                            given, is_bulk);
     check_weights_of_cut(given, seen, body, bulk, check);
     for (const FamilyCut cut : {FamilyCut::none, FamilyCut::surface, FamilyCut::crack})
       if (CutFamilies families = families_of(cut, given, seen, check.correction, body, kernel);

@@ -14,8 +14,7 @@ namespace plumbline::meshfree
     return static_cast<double>(n_bonds) >= nearly_always * static_cast<double>(n_pairs);
   }
 
-  BulkBonds::BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing,
-                       const Factor &factor)
+  BulkBonds::BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing)
       : spacing_(spacing)
   {
     constexpr std::size_t repeats = 2; // bonds of one vector on a lattice, at least
@@ -31,7 +30,15 @@ namespace plumbline::meshfree
         }
     is_lattice_ = n_bonds >= repeats * n_of.size();
     add_pairs(given, is_bulk);
-    add_bonds(given, is_bulk, factor);
+    add_bonds(given, is_bulk, [](std::size_t, std::size_t) { return 1.; });
+  }
+
+  BulkBonds BulkBonds::without(const Factor &factor, const GivenWeights &given,
+                               const std::vector<char> &is_bulk) const
+  {
+    BulkBonds result = *this;
+    result.add_bonds(given, is_bulk, factor);
+    return result;
   }
 
   BulkBonds::Key BulkBonds::key(const Point<2> &xi) const

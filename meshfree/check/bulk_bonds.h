@@ -28,9 +28,11 @@ namespace plumbline::meshfree
 
     /// @param is_bulk  of each family
     /// @param spacing  of the nodes [length]
-    /// @param factor   that is undone
-    BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing,
-              const Factor &factor);
+    BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing);
+
+    /// The same bonds with a factor of their weights undone.
+    BulkBonds without(const Factor &factor, const GivenWeights &given,
+                      const std::vector<char> &is_bulk) const;
 
     /// Null: there is no such bond in the bulk.
     const Kind *find(const Point<2> &xi) const;

@@ -107,17 +107,6 @@ namespace plumbline::meshfree
             1));
       return spread_of(values).median;
     }
-
-    /// Whether some bond of the bulk leads to a family that is cut, so that corrections change it.
-    bool is_bulk_changed(const GivenWeights &given, const std::vector<char> &is_cut,
-                         const std::vector<char> &is_bulk)
-    {
-      for (std::size_t i = 0; i < is_bulk.size(); ++i)
-        for (const unsigned int j : given.given.families[i].neighbours)
-          if (is_bulk[i] != 0 && is_cut[j] != 0)
-            return true;
-      return false;
-    }
   } // namespace
 
   double FoundCorrection::factor(std::size_t node, std::size_t neighbour) const
@@ -131,8 +120,7 @@ namespace plumbline::meshfree
 
   FoundCorrection find_correction(const GivenWeights &given, const BulkBonds &bulk,
                                   const std::vector<char> &is_cut, const std::vector<char> &is_bulk,
-                                  const std::vector<double> &visible, const Kernel<2> &kernel,
-                                  double spacing)
+                                  const std::vector<double> &visible, const Kernel<2> &kernel)
   {
     constexpr double alike = .01, explained = .25, near = .02;
     const std::vector<Changed> bonds = changed_bonds(given, bulk, is_cut);
@@ -140,7 +128,6 @@ namespace plumbline::meshfree
     if (bonds.empty())
       return best;
     best.before = best.after = difference(bonds, bulk, best);
-    const bool is_changed = is_bulk_changed(given, is_cut, is_bulk);
     for (FamilySize &size : sizes(given, bulk, visible, kernel))
     {
       size.in_bulk = median_in(size.values, is_bulk);
@@ -148,8 +135,8 @@ namespace plumbline::meshfree
       {
         FoundCorrection one{correction, size, best.before, 0};
         const auto factor = [&](std::size_t i, std::size_t j) { return one.factor(i, j); };
-        one.after = is_changed ? difference(bonds, BulkBonds(given, is_bulk, spacing, factor), one)
-                               : difference(bonds, bulk, one);
+        // families of scattered nodes differ in V, and those of small bodies have cut neighbours
+        one.after = difference(bonds, bulk.without(factor, given, is_bulk), one);
         if (one.before > alike && one.after < near && one.after < explained * one.before &&
             one.after < best.after)
           best = one;

@@ -45,6 +45,5 @@ namespace plumbline::meshfree
   /// @param visible  area of the visible part of each node's ball [length^2]
   FoundCorrection find_correction(const GivenWeights &given, const BulkBonds &bulk,
                                   const std::vector<char> &is_cut, const std::vector<char> &is_bulk,
-                                  const std::vector<double> &visible, const Kernel<2> &kernel,
-                                  double spacing);
+                                  const std::vector<double> &visible, const Kernel<2> &kernel);
 } // namespace plumbline::meshfree

@@ -352,12 +352,22 @@ TEST(CheckBody, solids_are_softer_at_surfaces)
 TEST(CheckBody, scattered_nodes_are_compared_by_length)
 {
   Body body(true, "FA", .1, {{"Kernel/type", "constant"}});
+  for (auto &family : body.families)
+    for (auto &[j, bond] : family)
+      bond.weight = h * h; // all nodes have this volume
   const std::string options =
       free_boundary + " --set Kernel/type=constant --require moments=0.9 --json";
   const auto right = parse_json(body.check(options).out);
   EXPECT_TRUE(right["body"]["missing"].empty()) << right["body"]["missing"];
   EXPECT_EQ(right["body"]["correction"]["name"], "none");
   EXPECT_TRUE(right["body"]["different"].empty());
+  // V0 is that of the ball, and V of no two families alike
+  const std::vector<double> V = body.sums([](const Bond<2> &) { return h * h; });
+  body.multiply([&](size_t i, size_t j) { return 2 * M_PI * 9 * h * h / (V[i] + V[j]); });
+  const auto corrected = parse_json(body.check(options).out);
+  EXPECT_EQ(corrected["body"]["correction"]["name"], "volume");
+  EXPECT_EQ(corrected["body"]["correction"]["volume"], "the sum of the neighbours' volumes");
+  EXPECT_LT(corrected["body"]["correction"]["difference_after"], 1e-9);
 }
 
 TEST(CheckBody, bad_input_is_refused)
