@@ -1,5 +1,6 @@
 #include "certify.h"
 
+#include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "io/certificate_json.h"
@@ -160,10 +161,9 @@ namespace plumbline::app
       return text;
     }
 
-    /// All points with both values, difference and bounds; why it is refused comes last.
+    /// Why it is refused.
     [[noreturn]] void refuse(const Certificate &certificate)
     {
-      std::cerr << report::to_text(table_of(certificate, true));
       std::size_t n_without = 0, n_wrong = 0;
       const auto refused = certificate.refused();
       for (const CertifiedValue *one : refused)
@@ -207,52 +207,82 @@ namespace plumbline::app
                          " is a meshfree rule; name a Galerkin method, e.g. Q2 or P2");
       return method;
     }
+
+    /// From 0. @throws InputError  there is no such level, or no memory for the two ways
+    std::size_t reference_level(const CertifyOptions &options, const scene::Scene &scene,
+                                const method::Methods &methods,
+                                const std::shared_ptr<const method::Method> &reference,
+                                const std::shared_ptr<const method::Method> &rule)
+    {
+      const auto n_levels = static_cast<unsigned int>(scene.study.series.front().levels.size());
+      const unsigned int level = options.reference_level == 0 ? n_levels : options.reference_level;
+      if (level > n_levels)
+        throw InputError("--reference-level = " + std::to_string(level) + ", but Study/h has " +
+                         std::to_string(n_levels) + " mesh sizes");
+      study::check_memory(scene, {reference}, methods, level);
+      scene::Scene of_rule = scene; // that has no reference at its finer levels
+      of_rule.reference.method.reset();
+      of_rule.reference.estimate = scene::Estimate::none;
+      study::check_memory(of_rule, {rule}, methods, 0);
+      return level - 1;
+    }
+
+    void write(const Certificate &certificate, const fs::path &folder)
+    {
+      base::write_file(folder / "certificate.json", io::to_json(certificate));
+      base::write_file(folder / "certificate.csv", report::to_csv(table_of(certificate, false)));
+      base::write_file(folder / "certificate.md", markdown_of(certificate));
+    }
+
+    std::string summary(const Certificate &certificate, const fs::path &folder)
+    {
+      return report::heading(certificate.name, certificate.purpose) + '\n' +
+             way_text(certificate.galerkin, "certified") + '\n' +
+             way_text(certificate.meshfree, "confirms") + "\n\n" + shown(certificate) +
+             "\ncertificate: " + (folder / "certificate.json").string() + "\n\n" +
+             report::wrapped(answer_of(certificate), report::summary_columns, 2) + '\n';
+    }
   } // namespace
 
   int certify(const CertifyOptions &options)
   {
     end_at_interrupts();
+    // every rank solves, and they share the work on meshes; the first one talks and writes
+    const base::Communicator ranks = base::Communicator::all();
+    const bool is_first = ranks.rank() == 0, is_quiet = options.quiet || !is_first;
     const scene::Scene scene = read_certifiable(options);
     const PointValues points(scene);
     const method::Methods methods = all_methods();
     const auto reference = reference_of(scene, methods), rule = rule_of(scene, methods);
-    const auto n_levels = static_cast<unsigned int>(scene.study.series.front().levels.size());
-    const unsigned int level = options.reference_level == 0 ? n_levels : options.reference_level;
-    if (level > n_levels)
-      throw InputError("--reference-level = " + std::to_string(level) + ", but Study/h has " +
-                       std::to_string(n_levels) + " mesh sizes");
-    study::check_memory(scene, {reference}, methods, level);
-    scene::Scene of_rule = scene;
-    of_rule.reference.method.reset();
-    of_rule.reference.estimate = scene::Estimate::none;
-    study::check_memory(of_rule, {rule}, methods, 0);
+    const std::size_t level = reference_level(options, scene, methods, reference, rule);
     study::check_data(scene);
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
-    const OutputFolder output(folder, {"certify", scene.name, scene.text},
-                              base::Communicator::alone());
-    std::optional<ProgressLine> progress(!options.quiet);
+    const OutputFolder output(folder, {"certify", scene.name, scene.text}, ranks);
+    std::optional<ProgressLine> progress(!is_quiet);
     progress->show("certify", 0);
     Certificate certificate =
-        study::certify(scene, *reference, *rule, level - 1,
+        study::certify(scene, *reference, *rule, level,
                        [&](const problem::Problem<2> &problem) { return points.of(problem); });
     progress.reset();
     certificate.hash = sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;
     if (!certificate.refused().empty())
+    {
+      if (is_first)
+        std::cerr << report::to_text(table_of(certificate, true));
       refuse(certificate);
-    base::write_file(folder / "certificate.json", io::to_json(certificate));
-    base::write_file(folder / "certificate.csv", report::to_csv(table_of(certificate, false)));
-    base::write_file(folder / "certificate.md", markdown_of(certificate));
-    if (options.json)
+    }
+    ranks.together(
+        [&]
+        {
+          if (is_first)
+            write(certificate, folder);
+        });
+    if (is_first && options.json)
       std::cout << io::to_json(certificate);
-    else if (!options.quiet)
-      std::cout << report::heading(certificate.name, certificate.purpose) << '\n'
-                << way_text(certificate.galerkin, "certified") << '\n'
-                << way_text(certificate.meshfree, "confirms") << "\n\n"
-                << shown(certificate) << "\ncertificate: " << (folder / "certificate.json").string()
-                << "\n\n"
-                << answer_of(certificate) << '\n';
+    else if (!is_quiet)
+      std::cout << summary(certificate, folder);
     return 0;
   }
 } // namespace plumbline::app

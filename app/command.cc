@@ -326,7 +326,7 @@ namespace
     command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     command.add_flag("--quiet", options->quiet, "Print nothing but errors");
     command.add_flag("--json", options->json, "Print certificate.json instead of the table");
-    set_action(command, request, options, certify);
+    set_action(command, request, options, certify, true);
   }
 
   void add_grade(CLI::App &app, Request &request)

@@ -93,6 +93,21 @@ TEST(Certify, writes_the_same_certificate_each_time)
   fs::remove_all(again);
 }
 
+TEST(Certify, agrees_on_two_ranks)
+{
+  const fs::path folder = temporary("certificate_of_ranks");
+  const Outcome outcome = run_on_two_ranks("certify " + scene_with() + " -o " + folder.string() +
+                                           " --reference-level 2 --threads 1");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("4 values certified"), outcome.out.rfind("4 values certified"));
+  const nlohmann::json one = read_json(certificate_folder() / "certificate.json"),
+                       two = read_json(folder / "certificate.json");
+  for (unsigned int i = 0; i < 4; ++i)
+    EXPECT_NEAR(two["points"][i]["value"][0].get<double>(),
+                one["points"][i]["value"][0].get<double>(), 1e-11);
+  fs::remove_all(folder);
+}
+
 TEST(Certify, refuses_with_3_where_the_ways_disagree_and_writes_nothing)
 {
   const fs::path folder = temporary("disagreement");
