@@ -370,6 +370,33 @@ TEST(CheckBody, scattered_nodes_are_compared_by_length)
   EXPECT_LT(corrected["body"]["correction"]["difference_after"], 1e-9);
 }
 
+TEST(CheckBody, a_mesh_of_the_body_is_the_same_body)
+{
+  const Body body;
+  const auto of_box = parse_json(body.check(free_boundary + " " + crack + " --json").out),
+             of_mesh = parse_json(
+                 body.check(free_boundary + " " + crack + " --json --set Domain/mesh=triangles")
+                     .out);
+  for (const std::string cut : {"surface", "crack"})
+    for (const std::string part : {"first_moments", "second_moments", "visible_over_bulk"})
+      EXPECT_NEAR(families_of(of_box, cut)[part]["median"],
+                  families_of(of_mesh, cut)[part]["median"], 1e-9)
+          << cut << part;
+}
+
+TEST(CheckBody, a_half_list_is_the_one_cause)
+{
+  Body body;
+  for (size_t i = 0; i < body.families.size(); ++i)
+    body.families[i].erase(body.families[i].begin(), body.families[i].upper_bound(i));
+  const Outcome outcome = body.check(free_boundary);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  expect_found(outcome.out,
+               "interior: cause: each pair of nodes is listed only once (a half list)");
+  EXPECT_EQ(outcome.out.find("near surfaces second"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("no bond"), std::string::npos);
+}
+
 TEST(CheckBody, bad_input_is_refused)
 {
   const Body body;
