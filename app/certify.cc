@@ -176,8 +176,9 @@ namespace plumbline::app
       std::string reason;
       if (n_without > 0)
         reason = "there is no bound for " + std::to_string(n_without) + of +
-                 ": changes from level to level do not fall, or outer quadrature is not refined; "
-                 "give finer levels (Study/h), another rule, or Quadrature/max refinements";
+                 ": changes from level to level do not decrease, or the error of outer "
+                 "quadrature is not estimated; give finer levels (Study/h), another rule, or "
+                 "Quadrature/tolerance > 0";
       else if (n_wrong > 0)
         reason = "the known solution contradicts " + std::to_string(n_wrong) + of +
                  ": it is off by more than the bound; is Problem/solution that of the load?";

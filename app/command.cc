@@ -310,7 +310,7 @@ namespace
   {
     const auto options = std::make_shared<CertifyOptions>();
     auto &command = *app.add_subcommand(
-        "certify", "Certify values of a solution: two independent ways, each with a bound");
+        "certify", "Certify values of a solution by two independent methods with error bounds");
     command
         .add_option("SCENE", options->scene_file,
                     "Scene file (.prm or .json) with Output/points, Reference/method and a "
@@ -320,8 +320,8 @@ namespace
     command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     command
         .add_option("--reference-level", options->reference_level,
-                    "Mesh size of the Galerkin method: that of this level of the scene, from 1, "
-                    "the coarsest (default: the finest)")
+                    "Level of the scene whose mesh size the Galerkin method takes; 1 is the "
+                    "coarsest (default: the finest)")
         ->check(CLI::Range(1u, most_levels));
     command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     command.add_flag("--quiet", options->quiet, "Print nothing but errors");
@@ -333,7 +333,7 @@ namespace
   {
     const auto options = std::make_shared<GradeOptions>();
     auto &command = *app.add_subcommand(
-        "grade", "Grade the values of another code by a certificate: digits, order, limit");
+        "grade", "Grade the values of another code against a certificate: digits, order, limit");
     command
         .add_option("FILE", options->files,
                     "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
@@ -349,7 +349,7 @@ namespace
     command
         .add_option("--require", options->required,
                     "digits=N, order=P, limit=certified, separated by commas: exit with 1 if one "
-                    "does not hold of the finest grid")
+                    "does not hold on the finest grid")
         ->allow_extra_args(false);
     command.add_flag("--quiet", options->quiet, "Print nothing but errors");
     set_action(command, request, options, grade);

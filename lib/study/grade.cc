@@ -108,10 +108,10 @@ namespace plumbline::study
     void judge_limit(SeriesGrade &series)
     {
       const double uncertain = series.index + series.bound;
-      const std::string numbers = "the extrapolated limit is " + text(series.limit_distance) +
-                                  " off the certified values; its uncertainty is " +
-                                  text(series.index) + " (GCI) and " + text(series.bound) +
-                                  " (bound of the certificate)";
+      const std::string numbers =
+          "the extrapolated limit differs by " + text(series.limit_distance) +
+          " from the certified values; its uncertainty is " + text(series.index) + " (GCI) and " +
+          text(series.bound) + " (bound of the certificate)";
       if (series.limit_distance > uncertain)
       {
         series.limit = GradedLimit::another;

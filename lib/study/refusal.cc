@@ -53,8 +53,10 @@ namespace plumbline::study
       if (scene::quantity(decisive.norm) == scene::Quantity::truncation &&
           method.family() != method::MethodFamily::meshfree)
         return "Study/decisive error = " + decisive.text() +
-               " is of equations at nodes, and those of Galerkin methods hold on average; name "
-               "meshfree rules only, or write a nodal or averages norm";
+               " is defined for meshfree rules, whose equations hold at nodes; Galerkin equations "
+               "are "
+               "tested with shape functions. Name meshfree rules only, or write a nodal or "
+               "averages norm";
       return scene::refusal(scene, needed, capabilities_for(needed, method),
                             others(method, needed, available));
     }

@@ -169,7 +169,7 @@ def grow(scene, *, set=None, methods=None, folder=None):
     dimensions.
 
     folder    where a checkpoint is kept: after Ctrl-C or a kill the same call goes on from it.
-              None: no checkpoint outlives the call
+              None: no checkpoint is kept after the call
 
     Other arguments as of run(); methods are names. Returns a Study whose one record has the critical
     loads and energies as scalars (G by bonds, G by energy, peak load, advance, ...), the curves

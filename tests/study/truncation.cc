@@ -146,7 +146,8 @@ TEST(Truncation, is_of_known_solutions_and_equations_at_nodes)
 {
   const auto expect = [](const Settings &settings, const std::string &words)
   { EXPECT_NE(message_of(settings).find(words), std::string::npos) << message_of(settings); };
-  expect({{"Methods/names", "FA, Q1"}}, "those of Galerkin methods hold on average");
+  expect({{"Methods/names", "FA, Q1"}},
+         "is defined for meshfree rules, whose equations hold at nodes");
   expect({{"Methods/names", "FA"},
           {"Reference/method", "Q2"},
           {"Study/decisive error", "truncation L2 | reference"}},

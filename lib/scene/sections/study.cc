@@ -88,8 +88,8 @@ namespace plumbline::scene
         "Error norms, separated by ',': nodal Linf, nodal L2 (at the method's own nodes with equal "
         "weights: sqrt(area * mean e^2)), averages Linf, averages L2 (cell averages of the "
         "solution, weighted by area), field Linf, field L2 (of the function), truncation Linf, "
-        "truncation L2 (of meshfree rules: what the exact or local solution leaves of their "
-        "equations, in units of the load).");
+        "truncation L2 (of meshfree rules: the residual of their equations for the exact or "
+        "local solution, in units of the load).");
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
