@@ -149,6 +149,9 @@ namespace plumbline::reference
       }
 
     private:
+      /// Of shape functions per cell.
+      bool has_one_family() const { return degree_ == (is_continuous_ ? 1 : 0); }
+
       unsigned int n_vertices_;
       bool is_continuous_;
       unsigned int degree_;

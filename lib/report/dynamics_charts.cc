@@ -76,11 +76,11 @@ namespace plumbline::report
       return results.decisive_error;
     }
 
-    const char *const unit_of_errors = " [unit of the solution]";
+    const char *const in_unit_of_u = " [unit of the solution]";
 
     std::string error_label(const StudyResults &results)
     {
-      return "error at the final time, " + decisive(results) + unit_of_errors;
+      return "error at the final time, " + decisive(results) + in_unit_of_u;
     }
 
     DataChart trends_chart(const StudyResults &results, const std::string &error, DataChart chart)
@@ -350,10 +350,10 @@ namespace plumbline::report
     errors.plot.x_label = study::label(axis, results.variable);
     errors.plot.y_label = error_label(results);
     orders.plot.x_label = study::label(study::Axis::time_step, "");
-    orders.plot.y_label = std::string("error in time, nodal L2") + unit_of_errors;
+    orders.plot.y_label = std::string("error in time, nodal L2") + in_unit_of_u;
     balance.plot.y_label = "imbalance over the largest energy";
     stored.plot.y_label = "stored energy over that at the start";
-    history.plot.y_label = "error, " + decisive(results) + unit_of_errors;
+    history.plot.y_label = "error, " + decisive(results) + in_unit_of_u;
     add(trends_chart(results, decisive(results), errors), 2);
     add(cost_chart(results), 2);
     add(trends_chart(results, study::time_error, orders), 2);

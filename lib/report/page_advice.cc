@@ -38,7 +38,8 @@ namespace plumbline::report::page
     }
 
     /// One row for each run; neighbouring targets that it serves stand together.
-    Data rows(const std::vector<study::Choice> &choices, const std::vector<MethodName> &methods)
+    Data rows(const std::vector<study::Choice> &choices, const std::vector<MethodName> &methods,
+              const std::string &unit)
     {
       Data list = Data::array();
       for (std::size_t first = 0, last = 0; first < choices.size(); first = ++last)
@@ -53,7 +54,7 @@ namespace plumbline::report::page
                         {"tied", joined(choice.tied)},
                         {"h", rounded(choice.h)},
                         {"error", rounded_error(choice.error)},
-                        {"unit", unit_of_errors(results)},
+                        {"unit", unit},
                         {"seconds", rounded_seconds(choice.seconds)}});
       }
       return list;
@@ -72,7 +73,7 @@ namespace plumbline::report::page
                       });
       return {{"title", place.title()},
               {"has_choices", !advice.choices.empty()},
-              {"choices", rows(advice.choices, methods)},
+              {"choices", rows(advice.choices, methods, unit_of_errors(results))},
               {"has_good", has_good},
               {"stalling", joined(advice.stalling)},
               {"field_only", joined(advice.field_only)}};
