@@ -4,6 +4,7 @@
 #include "base/similar_words.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
@@ -29,7 +30,8 @@ namespace plumbline::app
     {
       char *end = nullptr;
       const double value = std::strtod(word.c_str(), &end);
-      return word.empty() || *end != 0 ? std::nullopt : std::optional(value);
+      return word.empty() || *end != 0 || !std::isfinite(value) ? std::nullopt
+                                                                : std::optional(value);
     }
 
     bool is_numbers(const std::string &text)

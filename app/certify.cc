@@ -11,6 +11,7 @@
 #include "run_parts.h"
 #include "sha256.h"
 #include "study/certificate.h"
+#include "study/grade.h"
 #include "study/method_names.h"
 #include "study/preflight.h"
 #include "study/refusal.h"
@@ -54,7 +55,7 @@ namespace plumbline::app
       if (!(bound > 0) || !std::isfinite(value))
         return cell;
       const double unit = std::pow(10., std::floor(std::log10(bound)) - 1),
-                   shown = std::round(value / unit) * unit;
+                   shown = std::round(value / unit) * unit + 0.; // no -0
       const double digits =
           shown == 0 ? fallback : std::floor(std::log10(std::abs(shown) / unit)) + 1;
       cell.text = base::to_text(shown, static_cast<int>(std::clamp<double>(digits, 1, most)));
@@ -268,6 +269,14 @@ namespace plumbline::app
     progress.reset();
     certificate.hash = sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;
+    const study::CertifiedPlaces places(certificate);
+    for (std::size_t i = 0; i < certificate.points.size(); ++i)
+      if (const auto &x = certificate.points[i].x; places.find(x[0], x[1]) != i)
+        throw InputError("Output/points: (" + text(x[0]) + ", " + text(x[1]) +
+                         ") is there twice; leave one out");
+    if (!(certificate.size > 0))
+      throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative to "
+                           "its size; give a load, or other points");
     if (!certificate.refused().empty())
     {
       if (is_first)

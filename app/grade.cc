@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "io/certificate_json.h"
 #include "report/text_table.h"
+#include "sha256.h"
 #include "study/grade.h"
 
 #include <algorithm>
@@ -241,6 +242,10 @@ namespace plumbline::app
   {
     const Required required = parse_required(options.required);
     const Certificate certificate = io::read_certificate(options.certificate);
+    if (sha256(certificate.scene_text) != certificate.hash)
+      throw InputError("certificate '" + options.certificate +
+                       "': sha256 is not that of its scene_text, so one of them was changed; make "
+                       "it again by 'plumbline certify'");
     std::vector<double> h = sizes_of(options);
     std::vector<study::GivenValues> given;
     for (const std::string &file : options.files)

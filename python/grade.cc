@@ -42,7 +42,9 @@ namespace plumbline::python
                                  unsigned int n_components)
     {
       const std::size_t n = numbers.size() * n_components;
-      if (static_cast<std::size_t>(values.size()) != n)
+      const bool has_rows = values.ndim() >= 1 && values.ndim() <= 2 &&
+                            static_cast<std::size_t>(values.shape(0)) == numbers.size();
+      if (!has_rows || static_cast<std::size_t>(values.size()) != n)
         throw InputError("values has the shape " + shape_text(values) + "; give " +
                          std::to_string(n_components) + " for each of " +
                          std::to_string(numbers.size()) + " points");
@@ -64,7 +66,7 @@ namespace plumbline::python
         throw InputError("h has " + std::to_string(h.size()) + " mesh sizes for " +
                          std::to_string(values.size()) + " arrays of values; give one for each");
       for (std::size_t i = 0; i < h.size(); ++i)
-        if (!(h[i] > 0) || (i > 0 && !(h[i] < h[i - 1])))
+        if (!(h[i] > 0 && std::isfinite(h[i])) || (i > 0 && !(h[i] < h[i - 1])))
           throw InputError("h must be above 0 and decrease, from coarse to fine");
       std::vector<study::GivenValues> given;
       for (const Doubles &one : values)

@@ -86,9 +86,18 @@ namespace plumbline::geometry
       : parts_(std::move(parts)), cuts_(straight_parts(cracks)), tolerance_(tolerance),
         part_search_(boxes_of(parts_)), cut_search_(boxes_of(cuts_))
   {
-    for (const Polyline &crack : cracks)
-      if (crack.front().distance(crack.back()) > tolerance)
-        ends_.insert(ends_.end(), {crack.front(), crack.back()});
+    const auto goes_on = [&](std::size_t crack, const Point<2> &end)
+    {
+      for (std::size_t other = 0; other < cracks.size(); ++other)
+        for (std::size_t k = 1; other != crack && k < cracks[other].size(); ++k)
+          if (distance(end, cracks[other][k - 1], cracks[other][k]) <= tolerance)
+            return true;
+      return false;
+    };
+    for (std::size_t k = 0; k < cracks.size(); ++k)
+      for (const Point<2> &end : {cracks[k].front(), cracks[k].back()})
+        if (cracks[k].front().distance(cracks[k].back()) > tolerance && !goes_on(k, end))
+          ends_.push_back(end);
   }
 
   FamilyCut VisibleBody::find(const Ball &ball, std::vector<Polygon> &visible) const

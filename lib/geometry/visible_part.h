@@ -52,7 +52,7 @@ namespace plumbline::geometry
   private:
     std::vector<Polygon> parts_;
     std::vector<Cut> cuts_;
-    std::vector<Point<2>> ends_; ///< of open cracks
+    std::vector<Point<2>> ends_; ///< of open cracks, where no other crack goes on
     double tolerance_;
     BoxSearch<2> part_search_, cut_search_;
   };

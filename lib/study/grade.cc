@@ -112,7 +112,12 @@ namespace plumbline::study
           "the extrapolated limit differs by " + text(series.limit_distance) +
           " from the certified values; its uncertainty is " + text(series.index) + " (GCI) and " +
           text(series.bound) + " (bound of the certificate)";
-      if (series.limit_distance > uncertain)
+      // where errors still fall the coarsest grid may be too coarse for the order of the changes
+      if (series.limit_distance > uncertain &&
+          std::pow(.5, series.finest().order) <= slowest_contraction)
+        series.reason = numbers + ", but the errors still fall at order " +
+                        text(series.finest().order) + ": give a finer grid";
+      else if (series.limit_distance > uncertain)
       {
         series.limit = GradedLimit::another;
         series.reason = numbers;

@@ -164,7 +164,7 @@ namespace plumbline::study
           run.fields[field_name] = field_of(problem, solution);
         if (scene_.study.decisive_error.target == scene::Target::finest)
           place_.kept<OwnFinest>(own_finest).keep(run, problem, solution.averages);
-        for (const auto &[error, value] : errors_of(run))
+        for (const auto &[error, value] : found)
           if (!std::isfinite(value))
             throw NumericalError("the error " + error + " is not a finite number");
         const auto points =

@@ -35,7 +35,7 @@ namespace plumbline::study
     const auto *able = dynamic_cast<const method::HasLinearEquations<dim> *>(discretisation.get());
     if (able == nullptr)
       throw InputError(
-          "Study/norms: truncation errors need the matrix of a method, and bodies with "
+          "Study/norms: truncation errors need the sparse matrix of a rule, and bodies with "
           "a free boundary are solved without one; write nodal or averages norms");
     const method::LinearEquations<dim> of = able->equations(problem);
     const unsigned int n_components = of.n_components;
@@ -62,8 +62,12 @@ namespace plumbline::study
       cancelled = std::max(cancelled, terms);
     }
     found.l2 = std::sqrt(found.l2);
+    if (!std::isfinite(found.l2)) // the largest loses NaN
+      throw NumericalError(
+          "the truncation error is not a finite number: u, the load or the constraint is "
+          "not, at a node");
     found.round_off = safety * epsilon * (cancelled + found.load);
-    if (found.load == 0)
+    if (!(found.load > found.round_off))
       found.load = cancelled;
     return found;
   }

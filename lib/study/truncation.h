@@ -14,9 +14,10 @@ namespace plumbline::study
   /// max|e| <= ‖A⁻¹‖∞ max|τ|: consistency and stability (Yang & Yin, theorem 4.1).
   struct Truncation
   {
-    double largest = 0;   ///< max|τ| [unit of the load]
-    double l2 = 0;        ///< √(Σ volume |τ|²)
-    double load = 0;      ///< max|b|, what largest is relative to; where b = 0, max_i Σ|a_ij u_j|
+    double largest = 0; ///< max|τ| [unit of the load]
+    double l2 = 0;      ///< √(Σ volume |τ|²)
+    double load =
+        0; ///< max|b|, what largest is relative to; where b is round-off, max_i Σ|a_ij u_j|
     double round_off = 0; ///< up to which size |τ| is round-off
   };
 

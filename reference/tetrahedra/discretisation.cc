@@ -41,7 +41,8 @@ namespace plumbline::reference
         options_.iteration = problem.settings.solver.iteration;
         diagnostics_.n_neighbours = static_cast<unsigned int>(
             (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
-        if (is_continuous) // the error of entries is told, and leaves linear fields exact
+        if (is_continuous &&
+            is_of_cubes_) // entries are off, but linear fields and moments are exact
           diagnostics_.limit = method::prove_galerkin(problem);
       }
 
@@ -133,13 +134,15 @@ namespace plumbline::reference
         const bool is_continuous = space_->is_continuous();
         algebra::CsrMatrix matrix;
         std::string change;
+        double error = 0; // of entries, relative to the diagonal
         if (is_of_cubes_)
         {
           const auto rows = [&](unsigned int refinement)
           { return RepeatedRows(problem.kernel, problem.h(), is_continuous, refinement); };
           const RepeatedRows fine = rows(1);
           matrix = fine.on(*space_, lattice_);
-          change = "a coarser rule changes them by " + base::to_text(fine.difference(rows(0)), 1);
+          error = fine.difference(rows(0));
+          change = "a coarser rule changes them by ";
         }
         else
         {
@@ -147,11 +150,18 @@ namespace plumbline::reference
           const auto rows = [&](std::size_t n, unsigned int refinement)
           { return assemble_by_faces(*space_, problem.kernel, n, refinement); };
           matrix = rows(n_unknowns(), 0);
-          change = "a finer rule changes a sample of them by " +
-                   base::to_text(difference(rows(std::min(n_sampled, n_unknowns()), 1), matrix), 1);
+          error = difference(rows(std::min(n_sampled, n_unknowns()), 1), matrix);
+          change = "a finer rule changes a sample of them by ";
         }
+        constexpr double too_much = .01;
+        if (!(error <= too_much))
+          throw NumericalError("entries by quadrature over pairs of faces are wrong by some " +
+                               base::to_text(error, 1) +
+                               " of the diagonal, since tetrahedra are thin; choose a smaller "
+                               "Methods/perturbation or Study/m");
         diagnostics_.notes.push_back(
-            "entries by quadrature over pairs of faces; " + change + " of the diagonal at most" +
+            "entries by quadrature over pairs of faces; " + change + base::to_text(error, 1) +
+            " of the diagonal at most" +
             (is_continuous ? ", and linear fields are exact with any rule" : ""));
         return matrix;
       }
@@ -176,14 +186,16 @@ namespace plumbline::reference
 
   double expected_bytes_on_tetrahedra(const method::ProblemSize &size, bool is_continuous)
   {
-    // entries of 12 bytes, for a while whole and parted; cells of the mesh; both measured
-    constexpr double of_entry = 20, of_cell = 100;
+    // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
+    // what all faces keep, and rows of faces that are assembled at a time; all measured
+    const double of_entry = size.is_scattered ? 50 : 20, of_cell = size.is_scattered ? 1000 : 100,
+                 of_faces = size.is_scattered ? 3e7 : 0;
     const double reach = size.reach() / size.level.h, n_types = is_continuous ? 1 : 6,
                  wider = is_continuous ? 2 : 1.2,
                  n_cubes = size.extents[0] * size.extents[1] * size.depth,
                  n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
                          (size.depth + 2 * reach),
                  n_columns = 4 * M_PI / 3 * std::pow(reach + wider, 3) * n_types;
-    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell;
+    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell + of_faces;
   }
 } // namespace plumbline::reference

@@ -135,6 +135,13 @@ TEST(Certify, refuses_scenes_that_are_none)
   expect_refused("certify " + scene + " --set Study/h=1/8,1/16", "2 mesh sizes");
   expect_refused("certify " + scene + " --reference-level 4", "--reference-level = 4");
   expect_refused("certify " + scene + " --set 'Problem/solution=a: x; b: y'", "2 cases");
+  const Outcome twice = run("certify " + scene + " --set Output/points=" +
+                            write("twice_there.csv", "x,y\n.5,.5\n.1,.2\n.5,.5\n"));
+  EXPECT_EQ(twice.exit_code, 2) << twice.err;
+  expect_found(twice.err, "(0.5, 0.5) is there twice");
+  const Outcome zero = run("certify " + scene + " --set 'Problem/solution=0*x'");
+  EXPECT_EQ(zero.exit_code, 3) << zero.err;
+  expect_found(zero.err, "u is 0 at all points");
 }
 
 TEST(Grade, of_exact_values_is_what_the_certificate_has)
@@ -191,6 +198,11 @@ TEST(Grade, refuses_other_points_and_options)
   expect_no_grade("grade " + file + end + " --h 0", "not above 0");
   expect_no_grade("grade " + file + end + " --require digits=2.5", "--require 'digits=2.5'");
   expect_no_grade("grade " + file + end + " --require speed=1", "--require 'speed=1'");
+  expect_no_grade("grade " + file + end + " --require order=inf", "'inf' is no number");
+  nlohmann::json changed = read_json(certificate_folder() / "certificate.json");
+  changed["scene_text"] = changed["scene_text"].get<std::string>() + " ";
+  expect_no_grade("grade " + file + " --problem " + write("changed.json", changed.dump()),
+                  "sha256 is not that of its scene_text");
   expect_no_grade("grade " + file + " --problem " + file, "certificate '");
   expect_no_grade("grade " + file + " --problem " + write("old.json", "{\"schema\": 0}"),
                   "schema = 0, but this version reads schema 1");

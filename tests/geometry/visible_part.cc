@@ -91,6 +91,17 @@ TEST(VisiblePart, bonds_cross_cracks_or_touch_their_ends)
   EXPECT_EQ(passage({-1, 0}, {-.5, 0}), Passage::clear);
 }
 
+// A crack is the same in one piece and in two; where one ends on another it has no tip.
+TEST(VisiblePart, cracks_may_be_given_in_pieces)
+{
+  const VisibleBody pieces({}, {{{0, 0}, {.5, 0}}, {{.5, 0}, {1, 0}}, {{.25, 1}, {.25, 0}}},
+                           tolerance);
+  EXPECT_EQ(pieces.passage({.5, -1}, {.5, 1}), Passage::crosses);
+  EXPECT_EQ(pieces.passage({0, -.5}, {.5, .5}), Passage::crosses);
+  EXPECT_EQ(pieces.passage({0, 1}, {.5, 1}), Passage::touches_end);
+  EXPECT_EQ(pieces.passage({1, -1}, {1, 1}), Passage::touches_end);
+}
+
 TEST(VisiblePart, segments_leave_a_body_with_a_gap)
 {
   const VisibleBody body(convex_parts({{{{0, 0}, {3, 1}}}, {{{1, .5}, {2, 1}}}}), {}, tolerance);

@@ -48,3 +48,12 @@ def test_other_points_are_refused(file):
         plumbline.grade(points[1:], values[1:], file)
     with pytest.raises(plumbline.InputError, match="shape"):
         plumbline.grade(points, values[1:], file)
+    vectors = file.with_name("NLB_03.certificate.json")
+    of_vectors = json.loads(vectors.read_text())["points"]
+    points = np.array([one["x"] for one in of_vectors])
+    values = np.array([one["value"] for one in of_vectors])
+    assert plumbline.grade(points, values, vectors)["grades"][0]["is_at_least"]
+    with pytest.raises(plumbline.InputError, match="shape"):
+        plumbline.grade(points, values.T, vectors)
+    with pytest.raises(plumbline.InputError, match="h must"):
+        plumbline.grade(points, [values] * 3, vectors, h=[np.inf, .1, .05])

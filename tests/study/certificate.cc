@@ -357,6 +357,18 @@ TEST(Grade, does_not_decide_about_limits_without_evidence)
   for (double &value : erratic[2].values)
     value += .1;
   EXPECT_EQ(limit(erratic, {.1, .05, .025}), GradedLimit::not_decided);
+  // so coarse a first grid that the order of the changes is too large: errors still fall
+  for (const std::vector<double> &errors : {std::vector<double>{.027, .01, .005},
+                                            {.07, .01, .0025},
+                                            {.5, .01, .0025},
+                                            {.02, -.001, -.0005}})
+  {
+    std::vector<GivenValues> coarse(3, {"coarse", certified});
+    for (std::size_t i = 0; i < coarse.size(); ++i)
+      for (double &value : coarse[i].values)
+        value *= 1 + errors[i];
+    EXPECT_EQ(limit(coarse, {.2, .1, .05}), GradedLimit::not_decided) << errors.front();
+  }
   // right to the last digit: no order to see, but the limit is
   const std::vector<GivenValues> exact(3, {"exact", certified});
   const SeriesGrade found = grade(certificate, exact, {.1, .05, .025});

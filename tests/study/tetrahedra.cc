@@ -136,7 +136,7 @@ TEST(StaticsOnTetrahedra, that_are_moved_are_exact_for_linear_fields)
 {
   const auto results = run(make_scene({{"Problem/solution", "3*x + 2*y - z + 1"},
                                        {"Methods/names", "P1"},
-                                       {"Methods/perturbation", "0.3"},
+                                       {"Methods/perturbation", "0.15"},
                                        {"Domain/boxes", "0,0,0 : 1,3/4,1/2"},
                                        {"Study/m", "1.5"},
                                        {"Study/norms", "nodal Linf, averages L2"},
@@ -148,6 +148,17 @@ TEST(StaticsOnTetrahedra, that_are_moved_are_exact_for_linear_fields)
   EXPECT_TRUE(std::any_of(record.notes.begin(), record.notes.end(),
                           [](const std::string &note)
                           { return note.find("a sample of them") != std::string::npos; }));
+}
+
+TEST(StaticsOnTetrahedra, that_are_moved_so_far_that_entries_are_wrong_are_refused)
+{
+  const auto results = run(make_scene({{"Methods/names", "P1"},
+                                       {"Methods/perturbation", "0.3"},
+                                       {"Domain/boxes", "0,0,0 : 1,3/4,1/2"},
+                                       {"Study/m", "3"},
+                                       {"Study/h", "1/4"}}));
+  EXPECT_NE(results.records.front().failure.find("smaller Methods/perturbation"), std::string::npos)
+      << results.records.front().failure;
 }
 
 TEST(StaticsOnTetrahedra, that_are_moved_lose_little)

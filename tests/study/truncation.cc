@@ -110,6 +110,16 @@ TEST(Truncation, and_the_inverse_give_the_nodal_error)
   }
 }
 
+// The load of a linear field is round-off, and so is its truncation error.
+TEST(Truncation, of_fields_without_a_load_is_round_off)
+{
+  const StudyResults results =
+      results_of({{"Methods/names", "FA"}, {"Problem/solution", "x"}, {"Study/h", "0.1"}});
+  const Record &record = results.records.front();
+  EXPECT_LE(record["truncation Linf | exact"], record["truncation round-off"]);
+  EXPECT_GT(record["largest load"], 1);
+}
+
 TEST(Truncation, is_found_in_space_too)
 {
   const StudyResults results = in_space::run(in_space::make_scene(
