@@ -2,11 +2,9 @@
 
 #include "algebra/block_sine.h"
 #include "algebra/solve.h"
-#include "base/error.h"
 
 #include <deal.II/lac/vector.h>
 
-#include <sstream>
 #include <utility>
 
 namespace plumbline::algebra
@@ -48,14 +46,6 @@ namespace plumbline::algebra
     SchwarzPreconditioner on_boxes(const Stencil &stencil, const geometry::CubeFamilies &nodes,
                                    const std::vector<geometry::CubeRange> &boxes)
     {
-      constexpr double rounding = 1e-12;
-      if (const double defect = stencil.symmetry_defect(); defect > rounding)
-      {
-        std::ostringstream message;
-        message << "the operator is not symmetric (defect " << defect
-                << "), so conjugate gradients would give a wrong solution";
-        throw NumericalError(message.str());
-      }
       std::vector<std::unique_ptr<RectangleSolver>> solvers;
       for (const geometry::CubeRange &box : boxes)
         solvers.push_back(make_block_sine_solver(stencil, nodes, box));
@@ -81,7 +71,7 @@ namespace plumbline::algebra
   FamilySystem::FamilySystem(const Stencil &stencil, const geometry::CubeFamilies &nodes,
                              const std::vector<geometry::CubeRange> &boxes, OperatorBackend backend)
       : operator_(make_operator(stencil, nodes, backend)),
-        preconditioner_(on_boxes(stencil, nodes, boxes))
+        preconditioner_(on_boxes(symmetric(stencil), nodes, boxes))
   {
   }
 

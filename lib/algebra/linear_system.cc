@@ -12,21 +12,21 @@
 
 namespace plumbline::algebra
 {
+  const Stencil &symmetric(const Stencil &stencil)
+  {
+    constexpr double rounding = 1e-12;
+    if (const double defect = stencil.symmetry_defect(); defect > rounding)
+    {
+      std::ostringstream message;
+      message << "the operator is not symmetric (defect " << defect
+              << "), so conjugate gradients would give a wrong solution";
+      throw NumericalError(message.str());
+    }
+    return stencil;
+  }
+
   namespace
   {
-    const Stencil &symmetric(const Stencil &stencil)
-    {
-      constexpr double rounding = 1e-12;
-      if (const double defect = stencil.symmetry_defect(); defect > rounding)
-      {
-        std::ostringstream message;
-        message << "the operator is not symmetric (defect " << defect
-                << "), so conjugate gradients would give a wrong solution";
-        throw NumericalError(message.str());
-      }
-      return stencil;
-    }
-
     SchwarzPreconditioner on_boxes(const Stencil &stencil, const geometry::BoxNodes &nodes)
     {
       std::vector<std::unique_ptr<RectangleSolver>> solvers;

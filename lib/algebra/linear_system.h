@@ -36,6 +36,10 @@ namespace plumbline::algebra
     virtual LinearSolve solve(Vector &x, const Vector &b, const Stopping &stopping) const = 0;
   };
 
+  /// The stencil itself, which conjugate gradients need to be symmetric.
+  /// @throws NumericalError  it is not, to 1e-12
+  const Stencil &symmetric(const Stencil &stencil);
+
   /// A stencil on the free nodes of a lattice, by conjugate gradients that fast solvers on
   /// rectangles precondition.
   class StencilSystem : public LinearSystem
