@@ -120,6 +120,19 @@ TEST(Truncation, of_fields_without_a_load_is_round_off)
   EXPECT_GT(record["largest load"], 1);
 }
 
+// Not to the solution, which has another unit.
+TEST(Truncation, is_relative_to_the_load)
+{
+  const StudyResults results = results_of({{"Methods/names", "FA"}, {"Domain/boxes", "0,0 : 2,2"}});
+  const Record &record = results.records.front();
+  const std::string largest = "truncation Linf | exact", l2 = "truncation L2 | exact";
+  EXPECT_NE(record["largest load"], record["variation"]);
+  EXPECT_EQ(size_of(record, largest), record["largest load"]);
+  EXPECT_NEAR(size_of(record, l2), 2 * record["largest load"], 1e-12); // the root of the area is 2
+  EXPECT_EQ(round_off_of(record, largest), record["truncation round-off"]);
+  EXPECT_EQ(size_of(record, "nodal Linf | exact"), record["variation"]);
+}
+
 TEST(Truncation, is_found_in_space_too)
 {
   const StudyResults results = in_space::run(in_space::make_scene(
