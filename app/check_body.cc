@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "geometry/cracks.h"
+#include "geometry/search.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -187,6 +188,39 @@ namespace plumbline::app
     return *boundary == scene::Boundary::free;
   }
 
+  namespace
+  {
+    /// Beyond the reach of all nodes it is a mistake in the unit or the origin.
+    void refuse_far_cracks(const std::vector<geometry::Polyline> &cracks,
+                           const std::vector<dealii::Point<2>> &nodes, double horizon)
+    {
+      std::vector<geometry::Box> boxes;
+      for (const dealii::Point<2> &x : nodes)
+        boxes.push_back({x, x});
+      const geometry::BoxSearch<2> search(boxes);
+      std::vector<unsigned int> near;
+      for (std::size_t c = 0; c < cracks.size(); ++c)
+      {
+        bool is_near = false;
+        for (std::size_t k = 1; k < cracks[c].size() && !is_near; ++k)
+        {
+          geometry::Box around = geometry::bounding_box({&cracks[c][k - 1], 2});
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            around.lower[d] -= horizon;
+            around.upper[d] += horizon;
+          }
+          search.find(around, near);
+          is_near = !near.empty();
+        }
+        if (!is_near)
+          throw InputError("crack " + std::to_string(c) +
+                           " is farther than the horizon from all nodes, so that no bond can cross "
+                           "it; give its points in the coordinates of the nodes, or leave it out");
+      }
+    }
+  } // namespace
+
   BodyCheck check_body(const GivenBody &body, const std::string &key,
                        const physics::Kernel<2> &kernel, double spacing,
                        meshfree::GivenWeights &weights, std::vector<double> &uncut_areas)
@@ -198,6 +232,7 @@ namespace plumbline::app
       named.source.push_back(static_cast<std::size_t>(weights.nodes.id[k]));
     try
     {
+      refuse_far_cracks(body.cracks, named.nodes, kernel.horizon());
       geometry::check_cracks(body.cracks, named, {}, kernel.horizon());
     }
     catch (const InputError &error)

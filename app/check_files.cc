@@ -178,7 +178,7 @@ namespace plumbline::app
       page.parts.insert(page.parts.begin(),
                         {"body", "Free surfaces and cracks",
                          "Moments of all families relative to those of the visible part of the "
-                         "ball. The last columns are second moments relative to those of the bulk. "
+                         "ball. visible/bulk and weights/bulk are second moments relative to those of the bulk. "
                          "All other tables and maps are those of the interior.",
                          body_table(found)});
     for (std::size_t i = 0; i < found.cells->n_free; ++i)

@@ -167,7 +167,12 @@ namespace plumbline::app
       for (const std::string &text : options.cracks)
         try
         {
-          for (geometry::Polyline &crack : scene::to_lines(text, scene::lines()))
+          auto cracks = scene::to_lines(text, scene::lines());
+          if (cracks.empty())
+            throw InputError("'" + text +
+                             "' has no points; give 'x0, y0 : x1, y1', or leave it "
+                             "out");
+          for (geometry::Polyline &crack : cracks)
           {
             geometry::move_to(scene.domain.origin, crack);
             body.cracks.push_back(std::move(crack));

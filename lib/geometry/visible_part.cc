@@ -144,15 +144,24 @@ namespace plumbline::geometry
     std::vector<unsigned int> near;
     const std::array<Point<2>, 2> bond = {p, q};
     cut_search_.find(bounding_box({bond.data(), bond.size()}), near);
+    std::vector<Point<2>> touched;
     for (const Point<2> &end : ends_)
       if (distance(end, p, q) <= tolerance_)
-        return Passage::touches_end;
+        touched.push_back(end);
+    const auto is_touched = [&](const Cut &cut)
+    {
+      return std::any_of(touched.begin(), touched.end(),
+                         [&](const Point<2> &end)
+                         { return distance(end, cut[0], cut[1]) <= tolerance_; });
+    };
     // the same answer from both ends
     const bool is_ordered = std::pair(p[0], p[1]) < std::pair(q[0], q[1]);
     const Point<2> &first = is_ordered ? p : q, &last = is_ordered ? q : p;
-    const bool is_met = std::any_of(near.begin(), near.end(),
-                                    [&](unsigned int k) { return meet(cuts_[k], first, last); });
-    return is_met ? Passage::crosses : Passage::clear;
+    if (std::any_of(near.begin(), near.end(),
+                    [&](unsigned int k)
+                    { return !is_touched(cuts_[k]) && meet(cuts_[k], first, last); }))
+      return Passage::crosses;
+    return touched.empty() ? Passage::clear : Passage::touches_end;
   }
 
   bool VisibleBody::holds(const Point<2> &p, const Point<2> &q) const

@@ -17,7 +17,7 @@ namespace plumbline::geometry
   enum class Passage
   {
     clear,
-    touches_end, ///< it passes through an end of a crack, to rounding
+    touches_end, ///< it passes through an end of a crack, to rounding, and crosses no other side
     crosses
   };
 

@@ -113,6 +113,8 @@ namespace plumbline::report
           low = low > 0 ? std::min(low, value) : value;
           high = std::max(high, value);
         }
+    if (high == 0) // no error anywhere: any colours do
+      return {smallest_drawn_error, 1};
     low = std::max(low, size * (high > round_off * size ? round_off : smallest_drawn_error));
     high = std::max(high, 10 * low);
     if (high > few_decades * low)

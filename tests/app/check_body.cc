@@ -407,6 +407,9 @@ TEST(CheckBody, bad_input_is_refused)
     expect_found(outcome.err, message);
   };
   refuse("--boundary open", "--boundary = 'open' is not known; choose of 'constrained'");
+  refuse("--crack ''", "--crack: '' has no points; give 'x0, y0 : x1, y1', or leave it out");
+  refuse(free_boundary + " --crack '30,50 : 70,50'",
+         "--crack: crack 0 is farther than the horizon from all nodes");
   refuse("--crack .3,.5", "--crack: '.3,.5' is not allowed; write lines 'x0, y0 : x1, y1'");
   refuse(free_boundary + " --crack '.3,.5 : .3,.5'",
          "--crack: crack 0 has its points 0 and 1 in one place");

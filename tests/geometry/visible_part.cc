@@ -102,6 +102,19 @@ TEST(VisiblePart, cracks_may_be_given_in_pieces)
   EXPECT_EQ(pieces.passage({1, -1}, {1, 1}), Passage::touches_end);
 }
 
+// A bond through the end of one side or crack that crosses another one crosses.
+TEST(VisiblePart, bonds_through_an_end_may_cross_elsewhere)
+{
+  const VisibleBody two({}, {{{0, 0}, {1, 0}}, {{-1, 1}, {1, 1}, {1, 2}}}, tolerance);
+  EXPECT_EQ(two.passage({0, -1}, {0, .5}), Passage::touches_end);
+  EXPECT_EQ(two.passage({0, -1}, {0, 2}), Passage::crosses);
+  EXPECT_EQ(two.passage({-1.5, 0}, {1.5, 3}), Passage::crosses); // from no end
+  EXPECT_EQ(two.passage({-2, 1.5}, {-.5, .75}), Passage::touches_end);
+  EXPECT_EQ(two.passage({-1, 2.5}, {2, 1}), Passage::crosses);
+  EXPECT_EQ(two.passage({-1, 2.75}, {2, 2}), Passage::clear);
+  EXPECT_EQ(two.passage({.5, 2.25}, {1.5, 1.75}), Passage::touches_end);
+}
+
 TEST(VisiblePart, segments_leave_a_body_with_a_gap)
 {
   const VisibleBody body(convex_parts({{{{0, 0}, {3, 1}}}, {{{1, .5}, {2, 1}}}}), {}, tolerance);

@@ -314,7 +314,10 @@ namespace plumbline::report
     EXPECT_NEAR(scale({2e-15, 3e-14}).low, 1e-15, 1e-24);
     EXPECT_NEAR(scale({2e-19, 2e-18}).low, 1e-16, 1e-25);
     for (const std::vector<double> &values : std::vector<std::vector<double>>{{}, {nan, 0}, {1e-3}})
+    {
+      EXPECT_GT(scale(values).low, 0); // the scale is logarithmic
       EXPECT_GE(scale(values).high, 9.9 * scale(values).low);
+    }
   }
 
   TEST(ReportCharts, DrawZeroAsTheLowEndAndNothingOutsideTheDomain)
