@@ -55,6 +55,7 @@ namespace plumbline::analysis
     std::vector<dealii::Point<2>> points; ///< [length]
     std::vector<double> values;           ///< shape (n_points, n_components)
     std::vector<double> areas = {};       ///< of Ω that each point stands for; empty: not known
+    std::vector<double> z = {}; ///< of the points in three dimensions; empty: in the plane [length]
   };
 
   /// What an analysis finds by one method at one point of a study. It describes itself, so that

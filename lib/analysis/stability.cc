@@ -3,8 +3,9 @@
 #include "algebra/sparse_system.h"
 #include "analysis/critical_step.h"
 #include "base/error.h"
-#include "method/discretisation.h"
+#include "geometry/for_each_index.h"
 #include "physics/load.h"
+#include "physics/load_in_space.h"
 
 #include <algorithm>
 #include <array>
@@ -16,11 +17,12 @@ namespace plumbline::analysis
   namespace
   {
     using algebra::CsrMatrix;
-    using method::DiscreteOperator;
+    using method::DiscreteOperatorOf;
     using Values = std::vector<double>;
 
     /// y = A x.
-    void apply(const DiscreteOperator &matrix, const Values &x, Values &y)
+    template <int dim>
+    void apply(const DiscreteOperatorOf<dim> &matrix, const Values &x, Values &y)
     {
       if (matrix.action)
         return matrix.action(x, y);
@@ -34,7 +36,8 @@ namespace plumbline::analysis
     }
 
     /// Of each unknown.
-    Values masses(const DiscreteOperator &matrix)
+    template <int dim>
+    Values masses(const DiscreteOperatorOf<dim> &matrix)
     {
       Values mass;
       for (const double m : matrix.mass)
@@ -43,7 +46,8 @@ namespace plumbline::analysis
     }
 
     /// The symmetric part of M^(-1/2) A M^(-1/2).
-    algebra::Action symmetric_part(const DiscreteOperator &matrix)
+    template <int dim>
+    algebra::Action symmetric_part(const DiscreteOperatorOf<dim> &matrix)
     {
       Values scale = masses(matrix);
       for (double &s : scale)
@@ -72,7 +76,8 @@ namespace plumbline::analysis
     }
 
     /// Column by column from the action of a symmetric A.
-    CsrMatrix rows_of(const DiscreteOperator &matrix)
+    template <int dim>
+    CsrMatrix rows_of(const DiscreteOperatorOf<dim> &matrix)
     {
       constexpr std::size_t most_unknowns = 1500;
       const std::size_t n = matrix.size();
@@ -169,28 +174,54 @@ namespace plumbline::analysis
       return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k;
     }
 
-    /// Component c of L_δ applied to x^a y^b e_d, exact by the kernel's moments.
-    double image(const physics::Kernel<2> &kernel, const dealii::Point<2> &x, int a, int b,
-                 unsigned int c, unsigned int d)
+    /// L_δ x^α e_d at x, component c, exact by the kernel's moments.
+    template <int dim>
+    double image(const physics::Kernel<dim> &kernel, const dealii::Point<dim> &x,
+                 const std::array<int, dim> &alpha, unsigned int c, unsigned int d)
     {
       double sum = 0;
-      for (int i = 0; i <= a; ++i)
-        for (int j = i == 0 ? 1 : 0; j <= b; ++j)
-          sum -= binomial(a, i) * binomial(b, j) * std::pow(x[0], a - i) * std::pow(x[1], b - j) *
-                 kernel.moment({i, j}, c, d);
+      std::array<int, 3> last{};
+      std::copy(alpha.begin(), alpha.end(), last.begin());
+      geometry::for_each_index({0, 0, 0}, {last[0] + 1, last[1] + 1, last[2] + 1},
+                               [&](const std::array<int, 3> &moved)
+                               {
+                                 if (moved == std::array<int, 3>{})
+                                   return;
+                                 double factor = 1;
+                                 std::array<int, dim> beta;
+                                 for (unsigned int k = 0; k < dim; ++k)
+                                 {
+                                   beta[k] = moved[k];
+                                   factor *= binomial(alpha[k], beta[k]) *
+                                             std::pow(x[k], alpha[k] - beta[k]);
+                                 }
+                                 sum -= factor * kernel.moment(beta, c, d);
+                               });
       return sum;
+    }
+
+    template <int dim>
+    Modes modes_on(const std::vector<dealii::Point<dim>> &nodes, unsigned int n_components)
+    {
+      Modes modes{n_components, dim, {}, {}};
+      for (const dealii::Point<dim> &x : nodes)
+        modes.nodes.emplace_back(x[0], x[1], dim == 3 ? x[dim - 1] : 0);
+      return modes;
     }
   } // namespace
 
-  Stability measure(const method::DiscreteOperator &matrix)
+  template <int dim>
+  Stability measure(const DiscreteOperatorOf<dim> &matrix)
   {
     Stability result;
     result.n_unknowns = matrix.size();
+    result.is_collocated = matrix.is_collocated;
     const auto spectrum = algebra::spectrum(symmetric_part(matrix), matrix.size());
     result.smallest = spectrum.smallest;
     result.largest = largest_eigenvalue(symmetric_part(matrix), matrix.size());
     result.n_zero = static_cast<unsigned int>(spectrum.zero_modes.size());
-    result.modes = {matrix.n_components, matrix.nodes, spectrum.zero_modes};
+    result.modes = modes_on(matrix.nodes, matrix.n_components);
+    result.modes.values = spectrum.zero_modes;
     if (result.n_zero == 0)
       result.modes.values = {spectrum.lowest_mode};
     const Values mass = masses(matrix);
@@ -218,11 +249,14 @@ namespace plumbline::analysis
     return result;
   }
 
+  template Stability measure(const DiscreteOperatorOf<2> &);
+  template Stability measure(const DiscreteOperatorOf<3> &);
+
   namespace
   {
     /// A f / m for a field at the nodes.
-    Values act(const DiscreteOperator &matrix,
-               const std::function<double(const dealii::Point<2> &, unsigned int)> &f)
+    template <int dim, class Field>
+    Values act(const DiscreteOperatorOf<dim> &matrix, const Field &f)
     {
       const unsigned int nc = matrix.n_components;
       Values x(matrix.size()), y(matrix.size());
@@ -235,7 +269,8 @@ namespace plumbline::analysis
     }
 
     /// Nodes where constants are mapped to 0.
-    std::vector<char> inner_nodes(const DiscreteOperator &matrix, double size)
+    template <int dim>
+    std::vector<char> inner_nodes(const DiscreteOperatorOf<dim> &matrix, double size)
     {
       constexpr double rounding = 1e-9;
       std::vector<char> is_inner(matrix.nodes.size(), 1);
@@ -250,7 +285,34 @@ namespace plumbline::analysis
       return is_inner;
     }
 
-    unsigned int reproduced_degree(const DiscreteOperator &matrix, const physics::Kernel<2> &kernel,
+    /// All α with |α| = degree.
+    template <int dim>
+    std::vector<std::array<int, dim>> exponents(int degree)
+    {
+      std::vector<std::array<int, dim>> result;
+      for (int b = 0; b <= degree; ++b)
+        for (int c = 0; c <= (dim == 3 ? degree - b : 0); ++c)
+        {
+          std::array<int, dim> alpha{degree - b - c, b};
+          if constexpr (dim == 3)
+            alpha[2] = c;
+          result.push_back(alpha);
+        }
+      return result;
+    }
+
+    template <int dim>
+    double power(const dealii::Point<dim> &x, const std::array<int, dim> &alpha)
+    {
+      double value = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        value *= std::pow(x[d], alpha[d]);
+      return value;
+    }
+
+    template <int dim>
+    unsigned int reproduced_degree(const DiscreteOperatorOf<dim> &matrix,
+                                   const physics::Kernel<dim> &kernel,
                                    const std::vector<char> &is_inner, double size)
     {
       constexpr int highest = 4;
@@ -259,16 +321,15 @@ namespace plumbline::analysis
       for (int degree = 1; degree <= highest; ++degree)
       {
         double worst = 0, scale = size * std::pow(kernel.horizon(), degree);
-        for (int a = 0; a <= degree; ++a)
+        for (const std::array<int, dim> &alpha : exponents<dim>(degree))
           for (unsigned int d = 0; d < nc; ++d)
           {
-            const int b = degree - a;
-            const Values y = act(matrix, [&](const dealii::Point<2> &x, unsigned int c)
-                                 { return c == d ? std::pow(x[0], a) * std::pow(x[1], b) : 0; });
+            const Values y = act(matrix, [&](const dealii::Point<dim> &x, unsigned int c)
+                                 { return c == d ? power<dim>(x, alpha) : 0; });
             for (std::size_t i = 0; i < y.size(); ++i)
               if (is_inner[i / nc] != 0)
               {
-                const double exact = image(kernel, matrix.nodes[i / nc], a, b, i % nc, d);
+                const double exact = image<dim>(kernel, matrix.nodes[i / nc], alpha, i % nc, d);
                 scale = std::max(scale, std::abs(exact));
                 worst = std::max(worst, std::abs(y[i] - exact));
               }
@@ -279,12 +340,13 @@ namespace plumbline::analysis
       return highest;
     }
 
-    double barrier(const DiscreteOperator &matrix, const problem::Problem<2> &problem,
+    template <int dim>
+    double barrier(const DiscreteOperatorOf<dim> &matrix, double reach_at_most,
                    const std::vector<char> &is_inner)
     {
       unsigned int narrow = 0;
-      std::array<double, 2> centre, half;
-      for (unsigned int d = 0; d < 2; ++d)
+      std::array<double, dim> centre, half;
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const auto ends =
             std::minmax_element(matrix.nodes.begin(), matrix.nodes.end(),
@@ -296,9 +358,9 @@ namespace plumbline::analysis
       double C = matrix.second_moment, reach = matrix.reach;
       if (C == 0 && matrix.is_collocated)
       {
-        const Values y = act(matrix, [&](const dealii::Point<2> &x, unsigned int)
+        const Values y = act(matrix, [&](const dealii::Point<dim> &x, unsigned int)
                              { return std::pow(x[narrow] - centre[narrow], 2); });
-        reach = problem.horizon() + problem.h;
+        reach = reach_at_most;
         C = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < y.size(); ++i)
           if (is_inner[i] != 0)
@@ -308,20 +370,29 @@ namespace plumbline::analysis
     }
   } // namespace
 
-  Consistency check_consistency(const method::DiscreteOperator &matrix,
-                                const problem::Problem<2> &problem)
+  template <int dim>
+  Consistency check_consistency(const DiscreteOperatorOf<dim> &matrix,
+                                const problem::Problem<dim> &problem)
   {
     Consistency result;
     const double size = physics::operator_scale(problem.kernel);
     const auto is_inner = inner_nodes(matrix, size);
-    if (matrix.is_collocated && !problem.dilatation && !problem.coefficient)
+    bool is_bonds_alone = !problem.dilatation;
+    if constexpr (dim == 2)
+      is_bonds_alone = is_bonds_alone && !problem.coefficient;
+    if (matrix.is_collocated && is_bonds_alone)
     {
       result.n_inner = static_cast<std::size_t>(std::count(is_inner.begin(), is_inner.end(), 1));
       if (result.n_inner > 0)
         result.degree = reproduced_degree(matrix, problem.kernel, is_inner, size);
     }
     if (matrix.n_components == 1)
-      result.barrier = barrier(matrix, problem, is_inner);
+      result.barrier = barrier(matrix, problem.level().horizon + problem.level().h, is_inner);
     return result;
   }
+
+  template Consistency check_consistency(const DiscreteOperatorOf<2> &,
+                                         const problem::Problem<2> &);
+  template Consistency check_consistency(const DiscreteOperatorOf<3> &,
+                                         const problem::Problem<3> &);
 } // namespace plumbline::analysis

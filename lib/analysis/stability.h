@@ -3,20 +3,17 @@
 #include "algebra/eigenvalues.h"
 #include "algebra/spectrum.h"
 #include "method/diagnostics.h"
+#include "method/discrete_operator.h"
+#include "problem/in_space.h"
 #include "problem/problem.h"
-
-namespace plumbline::method
-{
-  struct DiscreteOperator;
-}
 
 namespace plumbline::analysis
 {
   /// Fields of a discrete operator.
   struct Modes
   {
-    unsigned int n_components = 1;
-    std::vector<dealii::Point<2>> nodes;
+    unsigned int n_components = 1, dimension = 2;
+    std::vector<dealii::Point<3>> nodes;     ///< z = 0 in the plane [length]
     std::vector<std::vector<double>> values; ///< of each, shape (n_nodes, n_components)
   };
 
@@ -25,10 +22,11 @@ namespace plumbline::analysis
   struct Stability
   {
     std::size_t n_unknowns = 0;
-    double smallest = 0;     ///< eigenvalue of the symmetric part: the coercivity constant
-    double largest = 0;      ///< from above, to 1e-4: what critical time steps are made of
-    unsigned int n_zero = 0; ///< zero-energy modes, up to algebra::most_zero_modes
-    Modes modes;             ///< those, or else the one of the smallest eigenvalue
+    bool is_collocated = true; ///< row i of A states the equation at node i
+    double smallest = 0;       ///< eigenvalue of the symmetric part: the coercivity constant
+    double largest = 0;        ///< from above, to 1e-4: what critical time steps are made of
+    unsigned int n_zero = 0;   ///< zero-energy modes, up to algebra::most_zero_modes
+    Modes modes;               ///< those, or else the one of the smallest eigenvalue
     /// Of M⁻¹A itself, which differ from those of the symmetric part where A is not symmetric;
     /// n_computed = 0: not known.
     algebra::Eigenvalues eigenvalues;
@@ -56,7 +54,8 @@ namespace plumbline::analysis
   /// @throws NumericalError  eigenvalues do not settle
   /// Cost: `algebra::spectrum`, up to 10 solves, and `algebra::eigenvalues` where A is not
   /// symmetric.
-  Stability measure(const method::DiscreteOperator &matrix);
+  template <int dim>
+  Stability measure(const method::DiscreteOperatorOf<dim> &matrix);
 
   /// What theory asks of an operator.
   struct Consistency
@@ -73,6 +72,7 @@ namespace plumbline::analysis
     double barrier = 0;
   };
 
-  Consistency check_consistency(const method::DiscreteOperator &matrix,
-                                const problem::Problem<2> &problem);
+  template <int dim>
+  Consistency check_consistency(const method::DiscreteOperatorOf<dim> &matrix,
+                                const problem::Problem<dim> &problem);
 } // namespace plumbline::analysis

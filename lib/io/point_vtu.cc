@@ -19,13 +19,13 @@ namespace plumbline::io
     void write_array(std::ostream &out, const std::string &name, const analysis::PointField &field,
                      unsigned int first, unsigned int n)
     {
-      const bool is_vector = n == 2;
+      const bool is_vector = n > 1;
       begin_array(out, "Float64", name, is_vector ? 3 : 1);
       for (std::size_t i = 0; i < field.points.size(); ++i)
       {
         for (unsigned int c = first; c < first + n; ++c)
           out << field.values[i * field.n_components + c] << (c + 1 < first + n ? " " : "");
-        out << (is_vector ? " 0\n" : "\n");
+        out << (n == 2 ? " 0\n" : "\n");
       }
       out << "</DataArray>\n";
     }
@@ -33,7 +33,7 @@ namespace plumbline::io
     void write_data(std::ostream &out, const analysis::PointField &field)
     {
       out << "<PointData>\n";
-      if (field.n_components <= 2)
+      if (field.n_components == (field.z.empty() ? 2 : 3) || field.n_components == 1)
         write_array(out, "u", field, 0, field.n_components);
       else
         for (unsigned int c = 0; c < field.n_components; ++c)
@@ -70,8 +70,9 @@ namespace plumbline::io
         << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfCells=\"" << n
         << "\">\n<Points>\n";
     begin_array(out, "Float64", "points", 3);
-    for (const dealii::Point<2> &x : field.points)
-      out << x[0] << ' ' << x[1] << " 0\n";
+    for (std::size_t i = 0; i < n; ++i)
+      out << field.points[i][0] << ' ' << field.points[i][1] << ' '
+          << (field.z.empty() ? 0 : field.z[i]) << '\n';
     out << "</DataArray>\n</Points>\n";
     write_cells(out, n);
     write_data(out, field);

@@ -60,6 +60,7 @@ namespace plumbline::analysis
     a("points", points);
     a("values", field.values);
     a("areas", field.areas);
+    a("z", field.z);
     field.points.resize(points.size() / 2);
     for (std::size_t i = 0; i < field.points.size(); ++i)
       field.points[i] = {points[2 * i], points[2 * i + 1]};

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "algebra/linear_system.h"
-#include "algebra/spectrum.h"
 #include "algebra/symbol.h"
 #include "method/diagnostics.h"
+#include "method/discrete_operator.h"
 #include "method/equation_of_motion.h"
 #include "method/field.h"
 #include "problem/problem.h"
@@ -30,23 +30,6 @@ namespace plumbline::method
     std::function<double(const Vector &u, const Vector &v)> relative_change;
     /// Of surface terms about tips of cracks; empty where there are none. Collective.
     std::function<std::vector<TipForce>(const Vector &u)> tip_forces = {};
-  };
-
-  /// A discretisation's operator on its free unknowns, for spectra: Σ_j A_ij u_j = m_i b(x_i) and
-  /// what the collar adds.
-  struct DiscreteOperator
-  {
-    unsigned int n_components = 1;
-    std::vector<dealii::Point<2>> nodes; ///< unknowns are numbered node by node
-    std::vector<double> mass; ///< m of each node [length^2], or 1 where all are alike; > 0
-    /// Of one component on a lattice with one node a cell: -Σ_j A_ij (x_j - x_i)_1² / m_i over all
-    /// neighbours of a node, in the collar too, and how far they are along an axis; else 0.
-    double second_moment = 0, reach = 0;
-    bool is_collocated = true; ///< row i states the equation at node i: no Galerkin method
-    algebra::CsrMatrix rows;   ///< A; empty where only its action is there
-    algebra::Action action;    ///< of a symmetric A, matrix-free; empty where only rows are there
-
-    std::size_t size() const { return nodes.size() * n_components; }
   };
 
   /// What a method makes of a problem, for all cases that differ in load and constraint alone: the

@@ -352,7 +352,7 @@ namespace plumbline::report
       const Record *chosen = nullptr;
       for (const Record &record : results.records) // coarse to fine
         if (record.key.method == method && record.key.series == series && is_operator(record) &&
-            record.fields.count("mode 1") > 0 &&
+            record.fields.count("mode 1") > 0 && record.fields.at("mode 1").z.empty() &&
             (chosen == nullptr || record.fields.at("mode 1").points.size() <= most_nodes))
           chosen = &record;
       return chosen;

@@ -121,7 +121,7 @@ namespace plumbline::scene
          of_damage() | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
                                     C::nonlocal, C::space}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
-        {base::word(Analysis::stability), all_but({C::line, C::space})},
+        {base::word(Analysis::stability), all_but({C::line})},
         {base::word(Analysis::dispersion),
          all_but(on_meshes_alone | Capabilities{C::free_boundary, C::floating, C::line})},
         {base::word(Analysis::check),

@@ -1,5 +1,6 @@
 #include "analysis/transient.h"
 #include "method/discretisation.h"
+#include "method/discretisation_in_space.h"
 #include "study/stability.h"
 
 namespace plumbline::study
@@ -8,8 +9,9 @@ namespace plumbline::study
   {
     /// Of small motions about rest, of unit density.
     /// @param of_matrix  the largest eigenvalue of the method's matrix, whose masses are lumped
-    double largest_eigenvalue(const method::EquationOfMotion &equation,
-                              const problem::Problem<2> &problem, bool has_masses_of_matrix,
+    template <int dim>
+    double largest_eigenvalue(const method::MotionOf<dim> &equation,
+                              const problem::Problem<dim> &problem, bool has_masses_of_matrix,
                               double of_matrix)
     {
       if (has_masses_of_matrix && !equation.largest_eigenvalue())
@@ -21,8 +23,9 @@ namespace plumbline::study
     }
   } // namespace
 
-  CriticalSteps critical_steps(const method::Discretisation &discretisation,
-                               const problem::Problem<2> &problem, const Stability &stability,
+  template <int dim>
+  CriticalSteps critical_steps(const DiscretisationOf<dim> &discretisation,
+                               const problem::Problem<dim> &problem, const Stability &stability,
                                double density)
   {
     constexpr double rounding = 1e-8; // of the largest: accuracy of eigenvalues
@@ -37,12 +40,17 @@ namespace plumbline::study
     }
     steps.is_oscillating = stability.smallest >= -rounding * stability.largest;
     const auto own = discretisation.motion(false);
-    const bool is_collocated = discretisation.matrix().is_collocated;
-    steps.largest = own ? largest_eigenvalue(*own, problem, is_collocated, stability.largest)
-                        : stability.largest;
-    if (!is_collocated && own)
+    steps.largest =
+        own ? largest_eigenvalue(*own, problem, stability.is_collocated, stability.largest)
+            : stability.largest;
+    if (!stability.is_collocated && own)
       if (const auto lumped = discretisation.motion(true))
         steps.largest_lumped = largest_eigenvalue(*lumped, problem, true, stability.largest);
     return steps;
   }
+
+  template CriticalSteps critical_steps(const method::Discretisation &, const problem::Problem<2> &,
+                                        const Stability &, double);
+  template CriticalSteps critical_steps(const method::DiscretisationInSpace &,
+                                        const problem::Problem<3> &, const Stability &, double);
 } // namespace plumbline::study

@@ -1,8 +1,10 @@
 #include "study/stability.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/number_text.h"
 #include "method/discretisation.h"
+#include "method/discretisation_in_space.h"
 #include "scene/capabilities.h"
 #include "study/preflight.h"
 #include "study/solution_record.h"
@@ -254,21 +256,65 @@ namespace plumbline::study
         results.expectations.push_back(std::move(one));
     }
 
-    Records analyse(const Place &place, const Method &method)
+    auto discretise(const Method &method, const problem::Problem<2> &problem)
     {
-      const problem::Problem<2> &problem = place.problem();
-      const auto discretisation = method.discretise(problem, base::Communicator::alone());
-      const method::DiscreteOperator matrix = discretisation->matrix();
+      return method.discretise(problem, base::Communicator::alone());
+    }
+
+    auto discretise(const Method &method, const problem::Problem<3> &problem)
+    {
+      return method.discretise_in_space(problem);
+    }
+
+    method::DiscreteOperator operator_of(const method::Discretisation &discretisation,
+                                         const problem::Problem<2> &)
+    {
+      return discretisation.matrix();
+    }
+
+    /// From the rows that every method in space has.
+    method::DiscreteOperatorOf<3> operator_of(const method::DiscretisationInSpace &discretisation,
+                                              problem::Problem<3> problem)
+    {
+      const auto *able = dynamic_cast<const method::HasLinearEquations<3> *>(&discretisation);
+      if (able == nullptr)
+        return {};
+      const method::Diagnostics of = discretisation.diagnostics();
+      constexpr double bytes_of_entry = 40; // in whole rows, in those of free nodes, and solving
+      base::require_memory(bytes_of_entry * static_cast<double>(discretisation.n_unknowns()) *
+                               (of.n_neighbours + 1.) * problem.n_components,
+                           "the rows of " + std::to_string(discretisation.n_unknowns()) +
+                               " unknowns",
+                           "choose a larger h or a smaller m (Study/h, Study/m), or run the first "
+                           "levels only (--levels)");
+      problem.load = {[](const dealii::Point<3> &, unsigned int) { return 1.; }};
+      return method::discrete_operator(able->equations(problem));
+    }
+
+    template <int dim>
+    Record measured(const Place &place, const Method &method, const problem::Problem<dim> &problem)
+    {
+      const auto discretisation = discretise(method, problem);
+      const auto matrix = operator_of(*discretisation, problem);
       if (matrix.size() == 0)
         throw InputError("Methods/names: '" + method.name() +
                          "' shows no operator, so nothing can be measured; leave it out "
                          "(--methods)");
       Stability stability = analysis::measure(matrix);
       stability.diagnostics = discretisation->diagnostics();
-      Records records = {stability_record(
+      return stability_record(
           place.record("stability", method), stability,
           analysis::check_consistency(matrix, problem),
-          critical_steps(*discretisation, problem, stability, place.scene().time.density))};
+          critical_steps(*discretisation, problem, stability, place.scene().time.density));
+    }
+
+    Records analyse(const Place &place, const Method &method)
+    {
+      const scene::Scene &scene = place.scene();
+      if (scene.domain.is_in_space())
+        return {measured(place, method, scene::make_problem_in_space(scene, 0, place.level()))};
+      const problem::Problem<2> &problem = place.problem();
+      Records records = {measured(place, method, problem)};
       if (place.is_finest() && problem.double_well && problem.is_periodic())
         for (Record &record : strain_records(place, method))
           records.push_back(std::move(record));
@@ -315,9 +361,18 @@ namespace plumbline::study
     set(steps.largest_lumped > 0, "critical step, lumped", steps.lumped(), "time");
     set(steps.largest > 0, "grows", steps.is_oscillating ? 0 : 1);
     record.notes = s.diagnostics.notes;
+    analysis::PointField places{s.modes.n_components, {}, {}};
+    for (const dealii::Point<3> &x : s.modes.nodes)
+    {
+      places.points.emplace_back(x[0], x[1]);
+      if (s.modes.dimension == 3)
+        places.z.push_back(x[2]);
+    }
     for (std::size_t k = 0; k < s.modes.values.size(); ++k)
-      record.fields["mode " + std::to_string(k + 1)] = {s.modes.n_components, s.modes.nodes,
-                                                        s.modes.values[k]};
+    {
+      analysis::PointField &mode = record.fields["mode " + std::to_string(k + 1)] = places;
+      mode.values = s.modes.values[k];
+    }
     return record;
   }
 

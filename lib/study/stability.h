@@ -4,6 +4,7 @@
 #include "study/analysis.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace plumbline::study
 {
@@ -30,9 +31,14 @@ namespace plumbline::study
     }
   };
 
+  template <int dim>
+  using DiscretisationOf =
+      std::conditional_t<dim == 2, method::Discretisation, method::DiscretisationInSpace>;
+
   /// @param stability  of its matrix, whose masses are lumped
-  CriticalSteps critical_steps(const method::Discretisation &discretisation,
-                               const problem::Problem<2> &problem, const Stability &stability,
+  template <int dim>
+  CriticalSteps critical_steps(const DiscretisationOf<dim> &discretisation,
+                               const problem::Problem<dim> &problem, const Stability &stability,
                                double density);
 
   /// What is measured of an operator, as a record.

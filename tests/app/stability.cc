@@ -38,6 +38,21 @@ TEST(StabilityCommand, says_and_writes_where_a_rule_breaks)
   expect_found(read(folder / "stability.html"), "m &gt;= 2.24");
 }
 
+// The same in three dimensions, where modes are for ParaView alone.
+TEST(StabilityCommand, says_in_space_where_rules_break)
+{
+  const fs::path folder = temporary("stability");
+  const Outcome outcome =
+      run("stability " + std::string(PLUMBLINE_SCENES) +
+          "/three_d/small_families.prm --levels 1 --check -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "OPT        conditionally stable  m >= 2");
+  const auto records = read_json(folder / "stability.json")["records"];
+  EXPECT_EQ(records.at(0)["fields"]["mode 1"]["z"].size(), 64u);
+  expect_found(read(folder / "stability/ipa-ac-r2_m-2.vtu"), "0.125 0.125 0.375\n");
+  EXPECT_FALSE(fs::exists(folder / "stability/lowest-modes_m-2.svg"));
+}
+
 TEST(StabilityCommand, interrupted_keeps_what_is_finished)
 {
   // the finest level of FA at m = 3 is there, those of DGQ1 and of m = 4 and 5 take a minute

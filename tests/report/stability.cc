@@ -48,7 +48,7 @@ namespace plumbline::report
       for (double y = h / 2; y < 1; y += h)
         for (double x = h / 2; x < 1; x += h)
         {
-          s.modes.nodes.emplace_back(x, y);
+          s.modes.nodes.emplace_back(x, y, 0);
           if (is_free)
             for (int k = 0; k < 3; ++k)
             {
