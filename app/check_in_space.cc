@@ -146,6 +146,10 @@ namespace plumbline::app
   int check_in_space(const scene::Scene &scene, const CheckOptions &options,
                      const Requirements &required)
   {
+    if (!scene.domain.mesh.is_lattice())
+      throw InputError("Domain/mesh = " + scene.domain.mesh.name +
+                       ": in three dimensions weights are checked on one box; write lattice, and "
+                       "give Domain/boxes");
     const geometry::Solid &solid = scene.domain.solid;
     if (solid.include.size() != 1 || !solid.exclude.empty())
       throw InputError("in three dimensions weights are checked on one box; give Domain/boxes with "

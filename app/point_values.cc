@@ -2,7 +2,9 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "geometry/tetrahedral_domain.h"
 #include "problem/inside.h"
+#include "scene/mesh_in_space.h"
 #include "scene/problem.h"
 
 #include <algorithm>
@@ -80,8 +82,15 @@ namespace plumbline::app
         throw InputError("'" + file_ + "' has no points; give one " +
                          (axes.size() == 3 ? "x,y,z" : "x,y") + " on each line");
       const problem::Level &first = scene.study.series.front().levels.front();
-      if (scene.domain.is_in_space())
-        (void)in_solid(scene.domain.cubes(first.h));
+      if (scene.domain.is_in_space() && scene.domain.mesh.is_file())
+      {
+        const auto mesh = make_mesh_in_space(scene, first);
+        const geometry::TetrahedronSearch cells(*mesh);
+        (void)in_solid([&](const Point<3> &x) { return cells.find(x).has_value(); });
+      }
+      else if (scene.domain.is_in_space())
+        (void)in_solid([cubes = scene.domain.cubes(first.h)](const Point<3> &x)
+                       { return cubes.cell_at(x).has_value(); });
       else
         (void)of(scene::make_problem(scene, 0, first));
     }
@@ -106,16 +115,17 @@ namespace plumbline::app
 
   std::vector<Point<3>> PointValues::of(const problem::Problem<3> &problem) const
   {
-    return in_solid(problem.lattice);
+    return in_solid(problem::inside(problem));
   }
 
-  std::vector<Point<3>> PointValues::in_solid(const geometry::CubeLattice &lattice) const
+  std::vector<Point<3>>
+  PointValues::in_solid(const std::function<bool(const Point<3> &)> &is_inside) const
   {
     std::vector<Point<3>> points;
     for (const auto &x : points_)
     {
       points.emplace_back(x[0], x[1], x[2]);
-      if (!lattice.cell_at(points.back()))
+      if (!is_inside(points.back()))
         refuse(points.size() - 1);
     }
     return points;

@@ -7,6 +7,7 @@
 #include "study/values_at_points.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,7 +38,8 @@ namespace plumbline::app
                const std::filesystem::path &folder);
 
   private:
-    std::vector<dealii::Point<3>> in_solid(const geometry::CubeLattice &lattice) const;
+    std::vector<dealii::Point<3>>
+    in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
 
     std::string file_;

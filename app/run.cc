@@ -30,11 +30,11 @@ namespace plumbline::app
 
   namespace
   {
-    /// Whether ranks do the same side by side: on lattices, and rules on free bodies.
+    /// Whether ranks do the same side by side: on lattices and in space, and rules on free bodies.
     bool repeats_work(const scene::Scene &scene, const method::Methods &methods)
     {
       if (!scene.domain.is_free_body)
-        return scene.domain.mesh.is_lattice();
+        return scene.domain.mesh.is_lattice() || scene.domain.is_in_space();
       return std::any_of(methods.begin(), methods.end(),
                          [](const auto &method)
                          { return method->family() == method::MethodFamily::meshfree; });

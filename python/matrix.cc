@@ -140,11 +140,12 @@ namespace plumbline::python
     py::dict matrix_in_space(const problem::Problem<3> &given, const std::string &name,
                              const std::optional<double> &h)
     {
-      const auto found = to_method_in_space(name);
+      const auto found = to_method_in_space(name, given.mesh != nullptr);
       require_length(h);
       if (h && given.cells)
-        throw InputError("h = " + std::to_string(*h) +
-                         ": this problem is defined on its own scattered nodes only; omit h");
+        throw InputError(
+            "h = " + std::to_string(*h) +
+            ": this problem is defined on its own mesh or scattered nodes only; omit h");
       method::LinearEquations<3> made;
       {
         const py::gil_scoped_release others;

@@ -267,13 +267,17 @@ namespace plumbline::python
                        "; choose another one (plumbline.methods())");
   }
 
-  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name)
+  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name, bool is_on_mesh)
   {
     auto method = to_method(py::str(name));
     if (method->can().count(method::Capability::space) == 0)
       throw InputError("method '" + name +
                        "' is for two dimensions only; choose a meshfree rule, Q1, Q2, DGQ0, "
-                       "DGQ1 or DGQ2");
+                       "DGQ1 or DGQ2, or P1 or DGP0 on tetrahedra");
+    if (is_on_mesh && method->can_in_space().count(method::Capability::triangles) == 0)
+      throw InputError("method '" + name +
+                       "' is for lattices of cubes, and this problem is on a mesh of tetrahedra; "
+                       "choose P1, DGP0 or a meshfree rule");
     return method;
   }
 

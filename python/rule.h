@@ -41,5 +41,6 @@ namespace plumbline::python
 
   /// A method for three dimensions by its name.
   /// @throws InputError  unknown name, or a method for the plane alone
-  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name);
+  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name,
+                                                           bool is_on_mesh);
 } // namespace plumbline::python

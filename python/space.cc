@@ -2,10 +2,14 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "callables.h"
+#include "geometry/mesh_input.h"
 #include "geometry/node_cells_in_space.h"
+#include "geometry/tetrahedral_check.h"
+#include "geometry/tetrahedral_domain.h"
 #include "meshfree/check/bond_values.h"
 #include "method/method.h"
 #include "problem/in_space.h"
+#include "problem/inside.h"
 #include "rule.h"
 
 #include <algorithm>
@@ -94,17 +98,50 @@ namespace plumbline::python
       return geometry::voronoi_cells(nodes, lattice, horizon);
     }
 
-    std::shared_ptr<const ProblemInSpace> pose(const Kernel<3> &kernel, const py::object &lame,
-                                               const py::object &box, const py::object &exclude,
-                                               double h, const py::object &nodes,
-                                               const py::object &load, const py::object &constraint,
-                                               const py::object &solution)
+    /// Null where it is None.
+    std::shared_ptr<const geometry::TetrahedralMesh> to_mesh(const py::object &file, double h,
+                                                             double horizon)
+    {
+      if (file.is_none())
+        return nullptr;
+      const std::string name = py::str(file);
+      const auto mesh = std::make_shared<const geometry::TetrahedralMesh>(
+          geometry::read_tetrahedra(name, h, horizon));
+      try
+      {
+        geometry::check_collar(*mesh, horizon);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError("mesh file '" + name + "': " + error.what());
+      }
+      return mesh;
+    }
+
+    std::shared_ptr<const ProblemInSpace>
+    pose(const Kernel<3> &kernel, const py::object &lame, const py::object &box,
+         const py::object &exclude, const py::object &mesh, double h, const py::object &nodes,
+         const py::object &load, const py::object &constraint, const py::object &solution)
     {
       const GivenField given_load("load", load), given_constraint("constraint", constraint),
           given_solution("solution", solution);
-      const geometry::CubeLattice lattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")},
-                                          h);
+      if (box.is_none() == mesh.is_none() || !(mesh.is_none() || exclude.is_none()))
+        throw InputError("Problem: give the domain either by box (and exclude), or by mesh, the "
+                         "name of a gmsh file of tetrahedra");
+      const auto tetrahedra = to_mesh(mesh, h, kernel.horizon());
+      const geometry::CubeLattice lattice =
+          tetrahedra
+              ? geometry::cubes_within(*tetrahedra, h)
+              : geometry::CubeLattice({to_cuboids(box, "box"), to_cuboids(exclude, "exclude")}, h);
       ProblemInSpace problem = problem_of(lattice, kernel, lame);
+      problem.mesh = tetrahedra;
+      if (tetrahedra && (!nodes.is_none() || !lame.is_none()))
+        throw InputError(
+            "mesh cannot be combined with nodes or lame: on tetrahedra nodes are their "
+            "centroids, and models are bond-based; omit these");
+      if (tetrahedra)
+        problem.cells =
+            std::make_shared<const geometry::NodeCells<3>>(geometry::centroid_nodes(*tetrahedra));
       if (!nodes.is_none() && problem.dilatation)
         throw InputError(
             "nodes cannot be combined with lame: scattered nodes in three dimensions "
@@ -142,7 +179,7 @@ namespace plumbline::python
 
     SolvedInSpace solve(std::shared_ptr<const ProblemInSpace> of, const std::string &name)
     {
-      const auto method = to_method_in_space(name);
+      const auto method = to_method_in_space(name, of->mesh != nullptr);
       const py::gil_scoped_release others;
       return {of, name, analysis::solve(*method, *of)};
     }
@@ -150,8 +187,9 @@ namespace plumbline::python
     std::vector<Point<3>> to_inner_points(const ProblemInSpace &problem, const Doubles &at)
     {
       std::vector<Point<3>> points = to_points<3>(at, "points");
+      const auto is_inside = problem::inside(problem);
       for (std::size_t k = 0; k < points.size(); ++k)
-        if (!problem.lattice.cell_at(points[k]))
+        if (!is_inside(points[k]))
           throw InputError("points[" + std::to_string(k) + "] = (" + std::to_string(points[k][0]) +
                            ", " + std::to_string(points[k][1]) + ", " +
                            std::to_string(points[k][2]) +
@@ -283,7 +321,7 @@ namespace plumbline::python
               "u at the nodes, shape (n,).")
           .def_property_readonly(
               "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
-              "Centres of the domain's cells, x fastest, shape (n_cells, 3) [length].")
+              "Centres of the domain's cubes, x fastest, shape (n_cells, 3) [length].")
           .def_property_readonly(
               "averages",
               [](const SolvedInSpace &one)
@@ -303,7 +341,7 @@ namespace plumbline::python
               "Gradient of u at points in the domain, shape (n, 3) [length]: shape (n, 3), of "
               "three "
               "components (n, 3, 3) with du_c/dx_d at [:, c, d] [u/length]. Exact in the cell that "
-              "holds the point; for Q1 and Q2 only.")
+              "holds the point; for Q1, Q2 and P1 only.")
           .def_property_readonly(
               "cost",
               [](const SolvedInSpace &one)
@@ -327,11 +365,15 @@ namespace plumbline::python
 
 Problem(kernel, *, box, h, nodes=None, exclude=None, load=None, constraint=None, solution=None,
         lame=None)
+Problem(kernel, *, mesh="ball.msh", h, ...)   tetrahedra of gmsh, for P1, DGP0 and meshfree rules
 
 kernel      of the bonds; with lame, the influence function (only its profile and horizon are used)
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from
             these
 h           side of the cubes, which divides the distances between parallel sides [length]
+mesh        a file .msh or .geo (its constants h and delta are set) with physical volumes omega... (the domain) and
+            collar... (at least one horizon around it). Nodes of meshfree rules are the centroids of its cells;
+            averages are over the cubes of side h that lie in the domain
 nodes       scattered nodes of meshfree rules, shape (n, 3) [length], free in the boxes and constrained in a layer
             at least one horizon wide around them; default: the centres of the cubes
 load, constraint, solution
@@ -340,18 +382,18 @@ load, constraint, solution
             Without a load: that of the solution; without a constraint: the solution
 lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is then prescribed within two
             horizons of the boxes (one if lambda = mu))doc")
-        .def(
-            py::init(
-                [](const Kernel<3> &kernel, const py::object &box, double h,
-                   const py::object &nodes, const py::object &exclude, const py::object &load,
-                   const py::object &constraint, const py::object &solution, const py::object &lame)
-                {
-                  return std::const_pointer_cast<ProblemInSpace>(
-                      pose(kernel, lame, box, exclude, h, nodes, load, constraint, solution));
-                }),
-            "kernel"_a, py::kw_only(), "box"_a, "h"_a, "nodes"_a = py::none(),
-            "exclude"_a = py::none(), "load"_a = py::none(), "constraint"_a = py::none(),
-            "solution"_a = py::none(), "lame"_a = py::none())
+        .def(py::init(
+                 [](const Kernel<3> &kernel, const py::object &box, double h,
+                    const py::object &nodes, const py::object &exclude, const py::object &mesh,
+                    const py::object &load, const py::object &constraint,
+                    const py::object &solution, const py::object &lame)
+                 {
+                   return std::const_pointer_cast<ProblemInSpace>(pose(
+                       kernel, lame, box, exclude, mesh, h, nodes, load, constraint, solution));
+                 }),
+             "kernel"_a, py::kw_only(), "box"_a = py::none(), "h"_a, "nodes"_a = py::none(),
+             "exclude"_a = py::none(), "mesh"_a = py::none(), "load"_a = py::none(),
+             "constraint"_a = py::none(), "solution"_a = py::none(), "lame"_a = py::none())
         .def_property_readonly("h", &ProblemInSpace::h, "[length]")
         .def_property_readonly("horizon", &ProblemInSpace::horizon, "[length]");
     add_solution(module);

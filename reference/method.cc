@@ -39,8 +39,9 @@ namespace plumbline::reference
                     ? " on quadrilaterals; entries exact to round-off on lattices and "
                       "axis-aligned rectangles"
                     : std::string(" on triangles") +
-                          (has_one_family() ? ", in three dimensions on six tetrahedra per cube"
-                                            : "")) +
+                          (has_one_family()
+                               ? ", in three dimensions on tetrahedra (six per cube, or of a mesh)"
+                               : "")) +
                (by_quadrature_ ? ", all entries by quadrature: to chart exact ones against" : "") +
                (degree_ == 0 ? " (not asymptotically compatible)" : "");
       }
@@ -66,7 +67,8 @@ namespace plumbline::reference
         using method::Capability;
         if (n_vertices_ == 4 || can().count(Capability::space) == 0)
           return can();
-        return {Capability::lattice, Capability::nonlocal, Capability::space};
+        return {Capability::lattice, Capability::meshes, Capability::triangles,
+                Capability::nonlocal, Capability::space};
       }
       std::string why_not_in_space(const physics::Kernel<3> &kernel) const override
       {

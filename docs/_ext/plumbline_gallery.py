@@ -83,9 +83,26 @@ def lengths(values):
     return h, m * h
 
 
-def physical_surfaces(file, h, horizon):
-    """Triangles and quadrilaterals of a .geo file with the name of their physical surface."""
-    text = subprocess.run(["gmsh", "-2", "-v", "0", "-setnumber", "h", str(h), "-setnumber", "delta", str(horizon),
+def section_at_zero(cells):
+    """What the plane z = 0 cuts out of tetrahedra: triangles and quadrilaterals."""
+    parts = []
+    for name, corners in cells:
+        heights = [point[2] + 1e-9 for point in corners]  # no corner lies in the plane
+        cut = []
+        for a in range(4):
+            for b in range(a):
+                if heights[a] * heights[b] < 0:
+                    s = heights[a] / (heights[a] - heights[b])
+                    cut.append([(1 - s) * corners[a][i] + s * corners[b][i] for i in (0, 1)])
+        if cut:
+            middle = [sum(p[i] for p in cut) / len(cut) for i in (0, 1)]
+            parts.append((name, sorted(cut, key=lambda p: math.atan2(p[1] - middle[1], p[0] - middle[0]))))
+    return parts
+
+
+def physical_cells(file, h, horizon, dimension):
+    """Cells of a .geo file with the name of their physical surface; in three dimensions their section at z = 0."""
+    text = subprocess.run(["gmsh", f"-{dimension}", "-v", "0", "-setnumber", "h", str(h), "-setnumber", "delta", str(horizon),
                            "-format", "msh2", "-o", "/dev/stdout", str(file)], capture_output=True, text=True,
                           check=True).stdout
     names, points, cells, section = {}, {}, [], ""
@@ -96,10 +113,10 @@ def physical_surfaces(file, h, horizon):
         elif section == "$PhysicalNames" and len(words) == 3:
             names[words[1]] = words[2].strip('"')
         elif section == "$Nodes" and len(words) == 4:
-            points[words[0]] = (float(words[1]), float(words[2]))
-        elif section == "$Elements" and len(words) > 5 and words[1] in ("2", "3"):
+            points[words[0]] = tuple(float(x) for x in words[1:dimension + 1])
+        elif section == "$Elements" and len(words) > 5 and words[1] in (("2", "3") if dimension == 2 else ("4",)):
             cells.append((names.get(words[3], "omega"), [points[w] for w in words[3 + int(words[2]):]]))
-    return cells
+    return cells if dimension == 2 else section_at_zero(cells)
 
 
 def sketch(values, folder):
@@ -122,7 +139,7 @@ def sketch(values, folder):
     holes = boxes(values.get("Domain/holes", ""))
     cells = []
     if mesh.endswith(".geo"):
-        cells = physical_surfaces(folder / mesh, h, horizon)
+        cells = physical_cells(folder / mesh, h, horizon, 3 if values.get("Domain/dimension") == "3" else 2)
         corners = [point for _, cell in cells for point in cell]
     else:
         corners = [(p[0] + s * layer, p[1] + s * layer) for box in domain for p, s in zip(box, (-1, 1))]

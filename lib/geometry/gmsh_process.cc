@@ -123,20 +123,30 @@ namespace plumbline::geometry
       return "gmsh cannot do what it says; mend it";
     }
 
-    /// More squares of h in the box about a geometry are refused before gmsh makes any cell.
-    constexpr double most_squares = 5e7;
+    /// More squares or cubes of h in the box about a geometry are refused before gmsh makes any
+    /// cell.
+    constexpr double most_squares = 5e7, most_cubes = 1e7;
 
     /// What gmsh says of such a geometry, before its extents.
     const std::string too_large = "plumbline: too large for h, ";
 
     /// In gmsh's language; read after the script.
-    std::string size_check(double h)
+    std::string size_check(double h, unsigned int dimension)
     {
-      const std::string width = "(General.MaxX - General.MinX)",
-                        height = "(General.MaxY - General.MinY)";
-      return "BoundingBox;\nIf (" + width + " * " + height + " > " +
-             base::to_text(most_squares * h * h, 17) + ")\n  Error(\"" + too_large +
-             "%g by %g\", " + width + ", " + height + ");\n  Exit;\nEndIf\n";
+      std::string product, places, sides;
+      for (unsigned int d = 0; d < dimension; ++d)
+      {
+        const char axis = "XYZ"[d];
+        const std::string side = std::string("(General.Max") + axis + " - General.Min" + axis + ")";
+        product += (d == 0 ? "" : " * ") + side;
+        places += d == 0 ? "%g" : " by %g";
+        sides += ", " + side;
+      }
+      const double most = dimension == 2 ? most_squares : most_cubes;
+      return "BoundingBox;\nIf (" + product + " > " +
+             base::to_text(most * std::pow(h, dimension), 17) + ")\n  Error(\"" + too_large +
+             places + ", more than " + base::to_text(most, 3) +
+             (dimension == 2 ? " squares" : " cubes") + "\"" + sides + ");\n  Exit;\nEndIf\n";
     }
 
     /// gmsh's first error, "Error   : 'a.geo', line 3: syntax error (;)": where it is, in our
@@ -150,8 +160,7 @@ namespace plumbline::geometry
       std::string error = log.substr(at + mark.size(), log.find('\n', at) - at - mark.size());
       if (const std::size_t size = error.find(too_large); size != std::string::npos)
         return source + ": its geometry is " + error.substr(size + too_large.size()) +
-               ", more than " + base::to_text(most_squares, 3) +
-               " squares of the mesh size h; are both in the same unit of length? Scale the "
+               " of the mesh size h; are both in the same unit of length? Scale the "
                "geometry, or choose a larger Study/h";
       const std::size_t number = error.find("', line ");
       const std::size_t colon = number == std::string::npos ? number : error.find(": ", number);
@@ -216,7 +225,7 @@ namespace plumbline::geometry
         throw InputError(error);
       if (signal != 0 || WEXITSTATUS(status) != 0)
         throw InputError(source + ": gmsh ended " + ended +
-                         " and did not say why; try 'gmsh -2' on the file");
+                         " and did not say why; try 'gmsh -2' (in space -3) on the file");
       if (!fs::exists(mesh))
         throw InputError(source + ": gmsh ended without a mesh; take Exit out of the file");
       return read_all(mesh);
@@ -245,12 +254,13 @@ namespace plumbline::geometry
   }
 
   std::string mesh_by_gmsh(const std::string &file, double h, double delta,
-                           const GmshLimits &limits, const std::string &source, unsigned int order)
+                           const GmshLimits &limits, const std::string &source, unsigned int order,
+                           unsigned int dimension)
   {
     const base::TemporaryFolder folder("gmsh");
     // read after the script, whose own settings would make another format
     const std::string last = (folder.path() / "last.geo").string();
-    std::ofstream(last) << size_check(h)
+    std::ofstream(last) << size_check(h, dimension)
                         << "Mesh.Format = 1; Mesh.MshFileVersion = 2.2; Mesh.Binary = 0; "
                            "Mesh.SaveAll = 0; Mesh.SaveParametric = 0;\n"
                         << (order == 0 ? ""
@@ -258,14 +268,15 @@ namespace plumbline::geometry
                                          "= 0; Mesh.HighOrderOptimize = 0; Mesh.ElementOrder = " +
                                              std::to_string(order) + ";\n");
     const std::string mesh =
-        run({fs::absolute(file).string(), last, "-2", "-setnumber", "h", base::to_text(h, 17),
-             "-setnumber", "delta", base::to_text(delta, 17)},
+        run({fs::absolute(file).string(), last, "-" + std::to_string(dimension), "-setnumber", "h",
+             base::to_text(h, 17), "-setnumber", "delta", base::to_text(delta, 17)},
             folder, limits, source);
     // a branch or loop that is not ended is no error to gmsh, it skips the rest
     if (mesh.find("$Elements\n0\n") != std::string::npos)
       throw InputError(source +
                        ": gmsh makes no cells of it; end every If by EndIf and every For by "
-                       "EndFor, and define the surfaces that are physical");
+                       "EndFor, and define the " +
+                       (dimension == 2 ? "surfaces" : "volumes") + " that are physical");
     return mesh;
   }
 

@@ -18,8 +18,8 @@ namespace plumbline::geometry
     static GmshLimits from_environment();
   };
 
-  /// A .geo script meshed in two dimensions with the constants h and delta set, or a .msh file in
-  /// another format, as a text in gmsh's format 2.2, cells of physical surfaces only.
+  /// A .geo script meshed with the constants h and delta set, or a .msh file in another format, as
+  /// a text in gmsh's format 2.2, cells of physical surfaces (in space volumes) only.
   /// It is a process of its own that does the work: a script may loop for ever, take all memory or
   /// crash gmsh, and gmsh as a library is global, ends the program where its exceptions leave an
   /// OpenMP region, and cannot be limited. `gmsh` itself is called, not a copy of this process:
@@ -28,10 +28,11 @@ namespace plumbline::geometry
   /// @param source  opens messages, e.g. "mesh file 'disk.geo'"
   /// @param order   of the cells, whose points between corners lie on the script's curves; 0: as
   /// the script has it
+  /// @param dimension  2 or 3
   /// @throws InputError  gmsh not there, its own errors by file and line, no time or memory left
   std::string mesh_by_gmsh(const std::string &file, double h, double delta,
                            const GmshLimits &limits, const std::string &source,
-                           unsigned int order = 0);
+                           unsigned int order = 0, unsigned int dimension = 2);
   std::string convert_by_gmsh(const std::string &file, const GmshLimits &limits,
                               const std::string &source);
 } // namespace plumbline::geometry

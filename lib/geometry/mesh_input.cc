@@ -6,6 +6,7 @@
 #include "geometry/gmsh_process.h"
 #include "geometry/gmsh_script.h"
 #include "geometry/msh_file.h"
+#include "geometry/tetrahedral_check.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
@@ -55,6 +56,25 @@ namespace plumbline::geometry
         for (unsigned int &vertex : whole.outline)
           vertex = number[vertex];
       }
+      mesh.vertices = std::move(used);
+    }
+
+    void drop_unused_vertices(TetrahedralMesh &mesh)
+    {
+      constexpr auto unused = static_cast<unsigned int>(-1);
+      std::vector<unsigned int> number(mesh.vertices.size(), unused);
+      std::vector<dealii::Point<3>> used;
+      for (auto &cell : mesh.cells)
+        for (unsigned int &vertex : cell)
+        {
+          unsigned int &place = number[vertex];
+          if (place == unused)
+          {
+            place = static_cast<unsigned int>(used.size());
+            used.push_back(mesh.vertices[vertex]);
+          }
+          vertex = place;
+        }
       mesh.vertices = std::move(used);
     }
 
@@ -165,6 +185,31 @@ namespace plumbline::geometry
              word.compare(word.size() - end.size(), end.size(), end) == 0;
     }
 
+    /// A .msh file, or what gmsh makes of a .geo file, as a text that read_msh reads.
+    std::string text_of_mesh(const std::string &file, double h, double delta,
+                             const std::string &source, unsigned int order, unsigned int dimension)
+    {
+      const bool is_script = ends_with(file, ".geo");
+      if (!is_script && !ends_with(file, ".msh"))
+        throw InputError(source + " is of unknown kind; its name must end in .msh or .geo");
+      if (!(h > 0) || !std::isfinite(h) || !std::isfinite(delta))
+        throw InputError(source + ": h = " + base::to_text(h, 6) +
+                         " and delta = " + base::to_text(delta, 6) + " must be lengths");
+      if (is_script)
+      {
+        check_script(file);
+        return mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source, order,
+                            dimension);
+      }
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file))
+        throw InputError(source + " cannot be read; check its name and folder");
+      std::string msh;
+      msh.assign(std::istreambuf_iterator<char>(in), {});
+      return is_other_msh(msh) ? convert_by_gmsh(file, GmshLimits::from_environment(), source)
+                               : msh;
+    }
+
     /// Of triangles whose points between corners tell the curves: more than four would add nothing
     /// to four straight parts of a side.
     constexpr unsigned int order_of_curves = 4;
@@ -251,35 +296,34 @@ namespace plumbline::geometry
 
   Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar, bool is_curved)
   {
-    const std::string source = "mesh file '" + file + "'";
-    const bool is_script = ends_with(file, ".geo");
-    if (!is_script && !ends_with(file, ".msh"))
-      throw InputError(source + " is of unknown kind; its name must end in .msh or .geo");
-    if (!(h > 0) || !std::isfinite(h) || !std::isfinite(delta))
-      throw InputError(source + ": h = " + base::to_text(h, 6) +
-                       " and delta = " + base::to_text(delta, 6) + " must be lengths");
-    std::string msh;
-    if (is_script)
-    {
-      check_script(file);
-      msh = mesh_by_gmsh(file, h, delta, GmshLimits::from_environment(), source,
-                         is_curved ? order_of_curves : 0);
-    }
-    else
-    {
-      std::ifstream in(file, std::ios::binary);
-      if (!in || std::filesystem::is_directory(file))
-        throw InputError(source + " cannot be read; check its name and folder");
-      msh.assign(std::istreambuf_iterator<char>(in), {});
-      if (is_other_msh(msh))
-        msh = convert_by_gmsh(file, GmshLimits::from_environment(), source);
-    }
+    const std::string source = "mesh file '" + file + "'",
+                      msh =
+                          text_of_mesh(file, h, delta, source, is_curved ? order_of_curves : 0, 2);
     SideCurves curves;
     Mesh mesh = read_msh(msh, source, has_collar, is_curved ? &curves : nullptr);
     turn_clockwise_cells(mesh);
     if (is_curved)
       mesh = bend(mesh, curves, source);
     return finish(std::move(mesh), source);
+  }
+
+  TetrahedralMesh read_tetrahedra(const std::string &file, double h, double delta)
+  {
+    const std::string source = "mesh file '" + file + "'";
+    TetrahedralMesh mesh = read_msh_tetrahedra(text_of_mesh(file, h, delta, source, 0, 3), source);
+    drop_unused_vertices(mesh);
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      if (determinant(mesh, cell) < 0)
+        std::swap(mesh.cells[cell][2], mesh.cells[cell][3]);
+    try
+    {
+      check(mesh);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(source + ": " + error.what());
+    }
+    return mesh;
   }
 
   Mesh generate_mesh(const std::string &generator, const std::string &arguments, double h,

@@ -2,6 +2,7 @@
 
 #include "geometry/lattice.h"
 #include "geometry/mesh.h"
+#include "geometry/tetrahedral_mesh.h"
 
 #include <functional>
 
@@ -20,6 +21,11 @@ namespace plumbline::geometry
   /// `check`; curved sides asked for where none is curved
   Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true,
                  bool is_curved = false);
+
+  /// The same of tetrahedra of first order in physical volumes, for problems in space; .geo files
+  /// are meshed in three dimensions. Inverted cells are turned around.
+  /// @throws InputError  as read_mesh, read_msh_tetrahedra and `check` of such a mesh
+  TetrahedralMesh read_tetrahedra(const std::string &file, double h, double delta);
 
   /// One of deal.II's GridGenerator functions by name, e.g. "hyper_ball_balanced" with "0, 0 : 1",
   /// refined until no side is longer than h, vertices on curved boundaries, sides straight. Ω: the

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 
 /// What stands in gmsh's .msh files.
 namespace plumbline::geometry::msh
 {
   // types of elements
 
-  inline constexpr long triangle = 2, quadrilateral = 3;
+  inline constexpr long triangle = 2, quadrilateral = 3, tetrahedron = 4;
   /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
   struct HighTriangle
   {
@@ -24,6 +25,11 @@ namespace plumbline::geometry::msh
                                                 36L, 37L, 38L, 39L, 40L, 41L, 42L, 43L, 44L,
                                                 45L, 46L, 47L, 48L, 49L, 50L, 51L};
 
+  // of first order, then of second order with all points, and without inner ones
+  inline constexpr std::array hexahedra = {5L, 12L, 17L}, prisms = {6L, 13L, 18L},
+                              pyramids = {7L, 14L, 19L};
+  inline constexpr std::array other_tetrahedra = {11L, 29L, 30L, 31L, 32L, 33L, 71L, 72L,
+                                                  73L, 74L, 75L, 79L, 80L, 81L, 82L, 83L};
   template <std::size_t n>
   bool is_one_of(const std::array<long, n> &types, long type)
   {
@@ -36,6 +42,29 @@ namespace plumbline::geometry::msh
     const auto found = std::find_if(high_triangles.begin(), high_triangles.end(),
                                     [type](const HighTriangle &t) { return t.type == type; });
     return found == high_triangles.end() ? nullptr : &*found;
+  }
+
+  inline bool is_surface(long type)
+  {
+    return type == triangle || type == quadrilateral || is_one_of(other_surfaces, type);
+  }
+
+  /// Of a volume, and no tetrahedron of first order.
+  inline bool is_other_volume(long type)
+  {
+    constexpr long first_high = 90, last_high = 125; // prisms, hexahedra and pyramids
+    return is_one_of(hexahedra, type) || is_one_of(prisms, type) || is_one_of(pyramids, type) ||
+           is_one_of(other_tetrahedra, type) || (type >= first_high && type <= last_high);
+  }
+
+  /// " (hexahedra)"; of other cells than those of low order empty.
+  inline std::string volume_name(long type)
+  {
+    return is_one_of(hexahedra, type)          ? " (hexahedra)"
+           : is_one_of(prisms, type)           ? " (prisms)"
+           : is_one_of(pyramids, type)         ? " (pyramids)"
+           : is_one_of(other_tetrahedra, type) ? " (tetrahedra of higher order)"
+                                               : "";
   }
 
   struct Cell

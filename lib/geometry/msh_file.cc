@@ -24,7 +24,7 @@ namespace plumbline::geometry
     constexpr long most = std::numeric_limits<int>::max();
     constexpr long any_tag = std::numeric_limits<long>::max();
 
-    using msh::find_high, msh::is_one_of, msh::quadrilateral, msh::triangle;
+    using msh::find_high, msh::is_one_of, msh::quadrilateral, msh::tetrahedron, msh::triangle;
     using Section = MshSection;
 
     std::string begin_of(Section section)
@@ -43,12 +43,14 @@ namespace plumbline::geometry
     class Reader
     {
     public:
-      Reader(const std::string &text, const std::string &source, SideCurves *curves)
-          : words_(text, source), source_(source), curves_(curves)
+      /// @param dimension  of the cells that count
+      Reader(const std::string &text, const std::string &source, unsigned int dimension,
+             SideCurves *curves)
+          : words_(text, source), source_(source), dimension_(dimension), curves_(curves)
       {
       }
 
-      Mesh read(bool has_collar)
+      void read()
       {
         if (words_.word() != begin_of(Section::format))
           words_.fail("does not begin with $MeshFormat, as .msh files do; mesh a .geo file, or "
@@ -85,7 +87,43 @@ namespace plumbline::geometry
         if (vertices_.empty() || !has_elements)
           words_.fail(std::string("the file ends without ") +
                       (vertices_.empty() ? "$Nodes" : "$Elements") + "; export it again");
-        return mesh(has_collar);
+      }
+
+      /// In the plane.
+      Mesh mesh(bool has_collar)
+      {
+        if (const double height = largest_height(); height > off_plane * largest_)
+          throw InputError(source_ + " reaches z = " + base::to_text(height, 6) +
+                           "; only triangles and quadrilaterals in the plane z = 0 are allowed");
+        const std::map<long, bool> is_omega = check_groups(has_collar);
+        sort_cells();
+        Mesh mesh;
+        mesh.vertices = std::move(vertices_);
+        long last = 0; // physical groups are numbered from 1
+        for (const msh::Cell &cell : cells_)
+        {
+          if (cell.group != last)
+            mesh.groups.push_back(names_.at(last = cell.group));
+          mesh.cells.push_back({cell.vertex, cell.type == triangle ? 3U : 4U,
+                                is_omega.at(cell.group),
+                                static_cast<unsigned int>(mesh.groups.size() - 1)});
+        }
+        return mesh;
+      }
+
+      TetrahedralMesh tetrahedra()
+      {
+        const std::map<long, bool> is_omega = check_groups(true);
+        sort_cells();
+        TetrahedralMesh mesh;
+        for (std::size_t k = 0; k < vertices_.size(); ++k)
+          mesh.vertices.emplace_back(vertices_[k][0], vertices_[k][1], heights_[k]);
+        for (const msh::Cell &cell : cells_)
+        {
+          mesh.cells.push_back(cell.vertex);
+          mesh.is_inside.push_back(is_omega.at(cell.group) ? 1 : 0);
+        }
+        return mesh;
       }
 
     private:
@@ -135,7 +173,7 @@ namespace plumbline::geometry
           const long dimension = words_.integer("the dimension of a name", 0, 3);
           const long tag = words_.integer("the number of a physical group", 0, any_tag);
           const std::string name = words_.quoted("a physical group's name");
-          if (dimension == 2)
+          if (dimension == dimension_)
             names_[tag] = name;
         }
       }
@@ -145,21 +183,22 @@ namespace plumbline::geometry
         const std::array<long, 4> n = {count("the number of points"), count("the number of curves"),
                                        count("the number of surfaces"),
                                        count("the number of volumes")};
-        for (int dimension = 0; dimension < 4; ++dimension)
+        for (long dimension = 0; dimension < 4; ++dimension)
           for (long i = 0; i < n[dimension]; ++i)
           {
             const long tag = words_.integer("the number of an entity", -any_tag, any_tag);
             for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k)
               words_.number("a coordinate of an entity");
             const long n_groups = count("the number of its physical groups");
-            if (dimension == 2 && n_groups > 1)
-              words_.fail("surface " + std::to_string(tag) + " is in " + std::to_string(n_groups) +
-                          " physical surfaces; let it be in one of them");
+            if (dimension == dimension_ && n_groups > 1)
+              words_.fail(body() + " " + std::to_string(tag) + " is in " +
+                          std::to_string(n_groups) + " physical " + body() +
+                          "s; let it be in one of them");
             for (long k = 0; k < n_groups; ++k)
             {
               const long group = words_.integer("a physical group", -any_tag, any_tag);
-              if (dimension == 2)
-                group_of_surface_[tag] = std::abs(group);
+              if (dimension == dimension_)
+                group_of_body_[tag] = std::abs(group);
             }
             const long n_bounds = dimension == 0 ? 0 : count("the number of its boundaries");
             for (long k = 0; k < n_bounds; ++k)
@@ -174,8 +213,8 @@ namespace plumbline::geometry
         if (!number_.emplace(tag, index).second)
           words_.fail(line, "node " + std::to_string(tag) + " is given twice; number them anew");
         vertices_.emplace_back(x, y);
+        heights_.push_back(z);
         largest_ = std::max({largest_, std::abs(x), std::abs(y)});
-        height_ = std::max(height_, std::abs(z));
       }
 
       void nodes_2()
@@ -228,7 +267,8 @@ namespace plumbline::geometry
       void add_cell(msh::Cell cell)
       {
         const msh::HighTriangle *const high = find_high(cell.type);
-        for (long i = 0; i < (cell.type == quadrilateral ? 4 : 3); ++i)
+        const bool has_four = cell.type == quadrilateral || cell.type == tetrahedron;
+        for (long i = 0; i < (has_four ? 4 : 3); ++i)
           cell.vertex[i] = node_of_cell();
         for (unsigned int side = 0; high != nullptr && side < 3; ++side)
         {
@@ -247,10 +287,12 @@ namespace plumbline::geometry
         cells_.push_back(cell);
       }
 
-      /// Whether the cells of an entity matter: not those of points, curves, volumes, and of
-      /// surfaces that are not physical.
+      /// Whether the cells of an entity matter: not those of points, curves, volumes (in space
+      /// surfaces), and of surfaces (volumes) that are not physical.
       bool is_taken(long type, long group) const
       {
+        if (dimension_ == 3)
+          return is_taken_in_space(type, group);
         const bool is_high = curves_ != nullptr && find_high(type) != nullptr;
         const bool is_surface = type == triangle || type == quadrilateral || is_high;
         if (group != 0 && is_one_of(msh::other_surfaces, type) && !is_high)
@@ -262,6 +304,15 @@ namespace plumbline::geometry
                            : "triangles of first to fourth order are allowed where sides are "
                              "curved (Mesh.ElementOrder = 4, no Recombine)"));
         return is_surface && group != 0;
+      }
+
+      bool is_taken_in_space(long type, long group) const
+      {
+        if (group != 0 && msh::is_other_volume(type))
+          words_.fail("has cells of gmsh's type " + std::to_string(type) + msh::volume_name(type) +
+                      "; only tetrahedra of first order are allowed: take Recombine out of the "
+                      "script, and set Mesh.ElementOrder = 1");
+        return type == tetrahedron && group != 0;
       }
 
       void elements_2()
@@ -294,10 +345,12 @@ namespace plumbline::geometry
           const long entity = words_.integer("the number of an entity", -any_tag, any_tag);
           const long type = words_.integer("the type of elements", 1, most);
           const long n = count("the number of elements of a block");
-          const auto found = group_of_surface_.find(entity);
-          const bool is_physical = dimension == 2 && found != group_of_surface_.end();
-          if (dimension == 2 && (is_one_of(msh::points_and_lines, type)))
-            words_.fail("elements of type " + std::to_string(type) + " are none of a surface");
+          const auto found = group_of_body_.find(entity);
+          const bool is_physical = dimension == dimension_ && found != group_of_body_.end();
+          const bool is_lower =
+              is_one_of(msh::points_and_lines, type) || (dimension == 3 && msh::is_surface(type));
+          if (dimension == dimension_ && is_lower)
+            words_.fail("elements of type " + std::to_string(type) + " are none of a " + body());
           const bool is_wanted = is_physical && is_taken(type, found->second);
           for (long i = 0; i < n; ++i)
           {
@@ -310,7 +363,10 @@ namespace plumbline::geometry
         }
       }
 
-      /// By physical surface, in the order of their numbers.
+      /// What cells belong to.
+      std::string body() const { return dimension_ == 2 ? "surface" : "volume"; }
+
+      /// By physical surface or volume, in the order of their numbers.
       std::map<long, bool> check_groups(bool wants_collar) const
       {
         std::map<long, bool> is_omega;
@@ -332,7 +388,7 @@ namespace plumbline::geometry
         }
         if (!has_omega || has_collar != wants_collar || has_other)
           throw InputError(
-              source_ + " has the physical surfaces " + (all.empty() ? "(none)" : all) +
+              source_ + " has the physical " + body() + "s " + (all.empty() ? "(none)" : all) +
               (wants_collar ? "; give names that begin with 'omega' and 'collar', at least one "
                               "of each and no others"
                             : "; a body with a free boundary has no collar: give names that "
@@ -340,38 +396,32 @@ namespace plumbline::geometry
         return is_omega;
       }
 
-      Mesh mesh(bool has_collar)
+      double largest_height() const
       {
-        if (height_ > off_plane * largest_)
-          throw InputError(source_ + " reaches z = " + base::to_text(height_, 6) +
-                           "; only triangles and quadrilaterals in the plane z = 0 are allowed");
-        const std::map<long, bool> is_omega = check_groups(has_collar);
+        double largest = 0;
+        for (const double z : heights_)
+          largest = std::max(largest, std::abs(z));
+        return largest;
+      }
+
+      void sort_cells()
+      {
         std::stable_sort(
             cells_.begin(), cells_.end(),
             [](const msh::Cell &a, const msh::Cell &b)
             { return std::tie(a.group, a.entity, a.type) < std::tie(b.group, b.entity, b.type); });
-        Mesh mesh;
-        mesh.vertices = std::move(vertices_);
-        long last = 0; // physical groups are numbered from 1
-        for (const msh::Cell &cell : cells_)
-        {
-          if (cell.group != last)
-            mesh.groups.push_back(names_.at(last = cell.group));
-          mesh.cells.push_back({cell.vertex, cell.type == triangle ? 3U : 4U,
-                                is_omega.at(cell.group),
-                                static_cast<unsigned int>(mesh.groups.size() - 1)});
-        }
-        return mesh;
       }
 
       MshWords words_;
       std::string source_;
       bool is_4_ = false;
-      std::map<long, std::string> names_;     ///< of physical surfaces
-      std::map<long, long> group_of_surface_; ///< of version 4
+      long dimension_;
+      std::map<long, std::string> names_;  ///< of physical surfaces or volumes
+      std::map<long, long> group_of_body_; ///< of version 4: of a surface or volume
       std::vector<Point<2>> vertices_;
       std::unordered_map<long, unsigned int> number_;
-      double largest_ = 0, height_ = 0;
+      std::vector<double> heights_; ///< z of the vertices
+      double largest_ = 0;          ///< of their x and y
       SideCurves *curves_;
       std::vector<msh::Cell> cells_;
     };
@@ -394,6 +444,15 @@ namespace plumbline::geometry
   Mesh read_msh(const std::string &text, const std::string &source, bool has_collar,
                 SideCurves *curves)
   {
-    return Reader(text, source, curves).read(has_collar);
+    Reader reader(text, source, 2, curves);
+    reader.read();
+    return reader.mesh(has_collar);
+  }
+
+  TetrahedralMesh read_msh_tetrahedra(const std::string &text, const std::string &source)
+  {
+    Reader reader(text, source, 3, nullptr);
+    reader.read();
+    return reader.tetrahedra();
   }
 } // namespace plumbline::geometry

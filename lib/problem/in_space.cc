@@ -2,6 +2,7 @@
 
 #include "base/control_points.h"
 #include "base/error.h"
+#include "geometry/tetrahedral_domain.h"
 #include "physics/load_in_space.h"
 
 #include <algorithm>
@@ -49,6 +50,25 @@ namespace plumbline::problem
       return points;
     }
 
+    /// Of about n cells in Ω, or around it: their centroids and corners.
+    std::vector<Point> samples(const geometry::TetrahedralMesh &mesh, bool of_omega, std::size_t n)
+    {
+      const std::size_t step = std::max<std::size_t>(1, mesh.cells.size() / n);
+      std::vector<Point> points;
+      std::size_t count = 0;
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      {
+        if ((mesh.is_inside[cell] != 0) != of_omega || count++ % step != 0)
+          continue;
+        dealii::Tensor<1, 3> sum;
+        for (const unsigned int vertex : mesh.cells[cell])
+          sum += mesh.vertices[vertex];
+        points.emplace_back(sum / 4);
+        points.push_back(mesh.vertices[mesh.cells[cell].front()]);
+      }
+      return points;
+    }
+
     bool is_inside(const Cuboid &box, const Point &x)
     {
       for (unsigned int d = 0; d < 3; ++d)
@@ -63,13 +83,44 @@ namespace plumbline::problem
                          [&](const Cuboid &box) { return is_inside(box, x); });
     }
 
+    /// In Ω: points in its boxes, or the centroids of some cells of a mesh, and their corners.
+    /// @param n  along each axis of a box; of a mesh n³ cells
+    std::vector<Point> samples(const Problem<3> &problem, unsigned int n)
+    {
+      if (!problem.mesh)
+        return samples(problem.lattice.boxes(), n);
+      return samples(*problem.mesh, true, static_cast<std::size_t>(n) * n * n);
+    }
+
+    /// Around Ω.
+    std::vector<Point> samples_around(const Problem<3> &problem)
+    {
+      constexpr unsigned int n_samples = 16;
+      if (problem.mesh)
+        return samples(*problem.mesh, false, static_cast<std::size_t>(n_samples) * n_samples);
+      const std::vector<Cuboid> omega = problem.lattice.boxes();
+      std::vector<Cuboid> around;
+      for (const Cuboid &box : omega)
+        around.push_back(with_margin(box, problem.reach()));
+      std::vector<Point> points;
+      for (const Point &x : samples(around, n_samples))
+        if (!is_inside(omega, x))
+          points.push_back(x);
+      return points;
+    }
+
     using Series = std::optional<physics::ChebyshevInSpace>;
+
+    bool is_box(const Problem<3> &problem)
+    {
+      return !problem.mesh && problem.lattice.is_box();
+    }
 
     /// On the bounding box of Ω; none where the field has no values in a part outside of Ω.
     Series series_of(const physics::ChebyshevInSpace::Function &value, const Problem<3> &problem,
                      double noise = 0)
     {
-      const Cuboid box = problem.lattice.cuboid();
+      const Cuboid box = bounding_box(problem);
       try
       {
         return physics::ChebyshevInSpace::resolve(value, problem.n_components, box.lower, box.upper,
@@ -77,7 +128,7 @@ namespace plumbline::problem
       }
       catch (const std::runtime_error &)
       {
-        if (problem.lattice.is_box())
+        if (is_box(problem))
           throw;
         return {};
       }
@@ -99,7 +150,7 @@ namespace plumbline::problem
     void complete_field(const std::string &name, Field<3> &field, const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 8;
-      for (const Point &x : samples(problem.lattice.boxes(), n_samples))
+      for (const Point &x : samples(problem, n_samples))
         check_finite(name, field, problem.n_components, x);
       if (!field.is_piecewise && !field.series)
         field.series = series_of(field.value, problem);
@@ -107,23 +158,17 @@ namespace plumbline::problem
 
     void check_constraint(const Problem<3> &problem)
     {
-      constexpr unsigned int n_samples = 16;
-      const std::vector<Cuboid> omega = problem.lattice.boxes();
-      std::vector<Cuboid> around;
-      for (const Cuboid &box : omega)
-        around.push_back(with_margin(box, problem.reach()));
-      for (const Point &x : samples(around, n_samples))
-        if (!is_inside(omega, x))
-          check_finite("constraint", problem.constraint, problem.n_components, x);
+      for (const Point &x : samples_around(problem))
+        check_finite("constraint", problem.constraint, problem.n_components, x);
     }
 
     Field<3> manufactured_load(const Problem<3> &problem)
     {
       constexpr unsigned int n_samples = 3;
       const physics::LoadInSpace load(problem.kernel, problem.dilatation, problem.solution->value,
-                                      samples(problem.lattice.boxes(), n_samples));
+                                      samples(problem, n_samples));
       Field<3> field{load};
-      if (problem.lattice.is_box() || problem.solution->series) // else the load has none either
+      if (is_box(problem) || problem.solution->series) // else the load has none either
         field.series = series_of(load, problem, load.noise());
       return field;
     }
@@ -196,14 +241,31 @@ namespace plumbline::problem
 
   Problem<3> at_spacing(Problem<3> problem, double h)
   {
+    if (problem.mesh)
+    {
+      constexpr double rounding = 1e-9;
+      double size = problem.h();
+      for (; size > h * (1 + rounding); size /= 2)
+        problem.mesh =
+            std::make_shared<const geometry::TetrahedralMesh>(geometry::refine(*problem.mesh));
+      if (size < h * (1 - rounding))
+        throw InputError("h = " + std::to_string(h) +
+                         " is not the mesh size of the problem's mesh, halved some times; give "
+                         "such a size");
+    }
     problem.lattice = problem.lattice.at_spacing(h);
     problem.make_tetrahedra = {};
     return problem;
   }
 
+  Cuboid bounding_box(const Problem<3> &problem)
+  {
+    return problem.mesh ? geometry::bounding_box(*problem.mesh) : problem.lattice.cuboid();
+  }
+
   bool has_doubled(const Problem<3> &problem)
   {
-    return problem.lattice.fits(2) && problem.horizon() >= 2 * problem.h() &&
+    return !problem.mesh && problem.lattice.fits(2) && problem.horizon() >= 2 * problem.h() &&
            inner_vertices(problem.lattice.at_spacing(2 * problem.h())).n_free() > 0;
   }
 } // namespace plumbline::problem

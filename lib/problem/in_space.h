@@ -33,11 +33,13 @@ namespace plumbline::problem
   };
 
   /// A boundary-value problem in space at one level: a homogeneous material on a union of boxes,
-  /// with u given all around them. Fill in what it has, then complete() it.
+  /// or on the cells of a mesh, with u given all around them. Fill in what it has, then complete()
+  /// it.
   template <>
   struct Problem<3>
   {
-    geometry::CubeLattice lattice;
+    geometry::CubeLattice lattice; ///< whose cells solutions are averaged over: they fill Ω; of a
+                                   ///< mesh, see geometry::cubes_within
     physics::Kernel<3> kernel;
     unsigned int n_components = kernel.n_components();
     std::optional<physics::Dilatation<3>> dilatation = {}; ///< homogeneous; empty: bonds only
@@ -47,11 +49,13 @@ namespace plumbline::problem
     std::optional<Field<3>> local_solution = {}; ///< of the local limit, if known and another
     bool is_load_given = true;                   ///< else it is manufactured from the solution
     MethodSettings settings = {};
+    /// Ω and a layer at least a horizon wide around it; null: Ω is the lattice's cells.
+    std::shared_ptr<const geometry::TetrahedralMesh> mesh = {};
     /// Scattered nodes of meshfree methods; null: the centres of the lattice's cells. Galerkin
     /// methods and averages have the lattice all the same.
     std::shared_ptr<const geometry::NodeCells<3>> cells = {};
-    /// Makes those of Galerkin methods on tetrahedra, at least a horizon wide around Ω; empty: six
-    /// for each cube of the lattice.
+    /// Without a mesh: makes tetrahedra for Galerkin methods, at least a horizon wide around Ω;
+    /// empty: six for each cube of the lattice.
     std::function<geometry::TetrahedralMesh()> make_tetrahedra = {};
 
     double h() const { return lattice.h(); }
@@ -68,9 +72,13 @@ namespace plumbline::problem
   /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
   Problem<3> complete(Problem<3> problem);
 
-  /// The problem on cubes of another size, with the same fields, and tetrahedra of these cubes.
-  /// @throws InputError  sides that are not multiples of h
+  /// The problem on cubes of another size, with the same fields, and tetrahedra of these cubes; on
+  /// a mesh with its cells cut into eight as often as h is halved.
+  /// @throws InputError  sides that are not multiples of h; a mesh whose h is not halved
   Problem<3> at_spacing(Problem<3> problem, double h);
+
+  /// Of Ω.
+  geometry::Cuboid bounding_box(const Problem<3> &problem);
 
   /// It can be solved with cells of 2 h by all methods.
   bool has_doubled(const Problem<3> &problem);

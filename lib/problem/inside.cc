@@ -1,6 +1,7 @@
 #include "problem/inside.h"
 
 #include "geometry/cell_locator.h"
+#include "geometry/tetrahedral_domain.h"
 
 #include <cmath>
 #include <memory>
@@ -27,5 +28,13 @@ namespace plumbline::problem
       const auto cell = cells->find(x);
       return cell && cells->is_inside(*cell);
     };
+  }
+
+  std::function<bool(const Point<3> &)> inside(const Problem<3> &problem)
+  {
+    if (!problem.mesh)
+      return [&problem](const Point<3> &x) { return problem.lattice.cell_at(x).has_value(); };
+    const auto cells = std::make_shared<const geometry::TetrahedronSearch>(*problem.mesh);
+    return [cells](const Point<3> &x) { return cells->find(x).has_value(); };
   }
 } // namespace plumbline::problem

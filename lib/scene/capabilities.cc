@@ -35,13 +35,14 @@ namespace plumbline::scene
       switch (capability)
       {
       case C::lattice:
-        return {mesh, "write Domain/mesh = squares or triangles"};
+        return {mesh, scene.domain.is_in_space() ? "write Domain/mesh = FILE.msh or FILE.geo"
+                                                 : "write Domain/mesh = squares or triangles"};
       case C::meshes:
         return {mesh, "write Domain/mesh = lattice"};
       case C::quadrilaterals:
         return {cells + "quadrilaterals", ""};
       case C::triangles:
-        return {cells + "triangles", ""};
+        return {cells + (scene.domain.is_in_space() ? "tetrahedra" : "triangles"), ""};
       case C::mixed_cells:
         return {cells + "of several kinds", ""};
       case C::free_boundary:
@@ -168,7 +169,8 @@ namespace plumbline::scene
                         std::inserter(missing, missing.end()));
     if (missing.empty())
       return "";
-    const Need need = describe(*missing.begin(), scene);
+    // what has no third axis needs other methods, whatever else it cannot do
+    const Need need = describe(missing.count(C::space) > 0 ? C::space : *missing.begin(), scene);
     const std::string take = others.empty() ? "" : "take " + others;
     return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
            need.remedy;

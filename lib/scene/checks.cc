@@ -116,9 +116,10 @@ namespace plumbline::scene
                   << ", so that balls would contain points without data; increase it or write auto";
         else
         {
-          if (scene.domain.is_in_space())
+          if (scene.domain.is_in_space() && scene.domain.mesh.is_lattice())
             (void)scene.domain.cubes(level.h);
-          else if (scene.domain.mesh.is_of_boxes() && !scene.strip.is_there())
+          else if (!scene.domain.is_in_space() && scene.domain.mesh.is_of_boxes() &&
+                   !scene.strip.is_there())
             (void)scene.domain.lattice(level.h);
           continue;
         }

@@ -16,4 +16,19 @@ namespace plumbline::scene
     return meshes_.emplace(key, geometry::read_mesh(file, h, delta, has_collar, is_curved))
         .first->second;
   }
+
+  const std::shared_ptr<const geometry::TetrahedralMesh> &
+  MeshFiles::read_in_space(const std::string &file, double h, double delta)
+  {
+    if (base::has_ending(file, ".msh"))
+      h = delta = 1;
+    const auto key = std::make_tuple(file, h, delta);
+    const auto known = meshes_in_space_.find(key);
+    if (known != meshes_in_space_.end())
+      return known->second;
+    return meshes_in_space_
+        .emplace(key, std::make_shared<const geometry::TetrahedralMesh>(
+                          geometry::read_tetrahedra(file, h, delta)))
+        .first->second;
+  }
 } // namespace plumbline::scene

@@ -3,6 +3,7 @@
 #include "geometry/mesh_input.h"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 
@@ -17,7 +18,14 @@ namespace plumbline::scene
     const geometry::Mesh &read(const std::string &file, double h, double delta, bool has_collar,
                                bool is_curved);
 
+    /// As geometry::read_tetrahedra, for scenes in space.
+    const std::shared_ptr<const geometry::TetrahedralMesh> &read_in_space(const std::string &file,
+                                                                          double h, double delta);
+
   private:
     std::map<std::tuple<std::string, double, double, bool, bool>, geometry::Mesh> meshes_;
+    std::map<std::tuple<std::string, double, double>,
+             std::shared_ptr<const geometry::TetrahedralMesh>>
+        meshes_in_space_;
   };
 } // namespace plumbline::scene

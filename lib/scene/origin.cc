@@ -39,7 +39,7 @@ namespace plumbline::scene
     std::vector<Point<2>> vertices_of_file(const Scene &scene)
     {
       const MeshSource &source = scene.domain.mesh;
-      if (!source.is_msh())
+      if (!source.is_msh() || scene.domain.is_in_space())
         return {};
       constexpr double any = 1; // mesh size and horizon, which the file does not depend on
       return scene.domain.mesh_files

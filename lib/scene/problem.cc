@@ -1,9 +1,11 @@
 #include "scene/problem.h"
 
 #include "base/cost.h"
+#include "geometry/tetrahedral_domain.h"
 #include "problem/builder.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
+#include "scene/mesh_in_space.h"
 #include "scene/models/model.h"
 #include "scene/nodes_in_space.h"
 
@@ -156,14 +158,18 @@ namespace plumbline::scene
       result.is_piecewise = expression.is_piecewise();
       return result;
     };
-    problem::Problem<3> given{scene.domain.cubes(level.h),
+    const auto mesh = scene.domain.mesh.is_file() ? make_mesh_in_space(scene, level) : nullptr;
+    problem::Problem<3> given{mesh ? geometry::cubes_within(*mesh, level.h)
+                                   : scene.domain.cubes(level.h),
                               make_kernel_in_space(scene, level.horizon)};
+    given.mesh = mesh;
     given.dilatation = scene.material.model->dilatation_in_space(scene, level.horizon);
     given.settings = method_settings(scene);
     given.cells = same_cells;
     if (!given.cells && !scene.methods.nodes.are_lattice_centres())
       given.cells = std::make_shared<const geometry::NodeCells<3>>(
-          make_cells_in_space(scene, level, given.lattice));
+          mesh ? geometry::centroid_nodes(*mesh)
+               : make_cells_in_space(scene, level, given.lattice));
     if (const double perturbation = scene.methods.nodes.perturbation; perturbation > 0)
       given.make_tetrahedra =
           [lattice = given.lattice, level, perturbation, seed = scene.geometry.seed]

@@ -19,10 +19,14 @@ namespace plumbline::scene
     void check_domain_in_space(const Scene &scene)
     {
       const DomainSection &domain = scene.domain;
-      require(!domain.solid.include.empty() && domain.boxes.exclude.empty(),
+      needs(domain.mesh.is_lattice() || domain.mesh.is_file(), "Domain/mesh = " + domain.mesh.name,
+            "write lattice, or a file .msh or .geo whose physical volumes are meshed by "
+            "tetrahedra");
+      require(domain.mesh.is_file() ||
+                  (!domain.solid.include.empty() && domain.boxes.exclude.empty()),
               "Domain/dimension = 3 needs three coordinates per corner in Domain/boxes and "
               "Domain/holes; write '0, 0, 0 : 1, 1, 1'");
-      needs(domain.mesh.is_lattice(), "Domain/mesh = " + domain.mesh.name, "write lattice");
+      needs(!domain.mesh.is_curved, "Domain/sides = curved", "write straight");
       const bool is_fracture = scene.fracture.is_there(); // see check_fracture
       needs(!domain.is_periodic && (!domain.is_free_body || is_fracture),
             "Domain/boundary other than constrained",
@@ -36,8 +40,16 @@ namespace plumbline::scene
     void check_nodes_in_space(const Scene &scene)
     {
       const NodeSource &nodes = scene.methods.nodes;
-      needs(nodes.kind() == NodeKind::centres || nodes.kind() == NodeKind::file,
-            "Methods/nodes = " + nodes.name, "write centres, or a file .csv");
+      const bool is_on_mesh = scene.domain.mesh.is_file();
+      const std::string on_mesh = " with Domain/mesh = " + scene.domain.mesh.name;
+      needs(nodes.kind() == NodeKind::centres ||
+                nodes.kind() == (is_on_mesh ? NodeKind::mesh : NodeKind::file),
+            "Methods/nodes = " + nodes.name + (is_on_mesh ? on_mesh : ""),
+            is_on_mesh ? "write mesh: the centroids of the tetrahedra"
+                       : "write centres, or a file .csv");
+      needs(!is_on_mesh || nodes.perturbation == 0, "Methods/perturbation" + on_mesh, "write 0");
+      needs(!is_on_mesh || !scene.time.is_dynamic(), "a transient analysis" + on_mesh,
+            "write Time/final time = 0, or Domain/mesh = lattice");
       if (nodes.are_lattice_centres())
         return;
       const std::string scattered =

@@ -23,38 +23,39 @@ namespace plumbline::scene
       const Regime regime = scene.study.regime;
       const bool takes_horizon = regime == Regime::m || regime == Regime::horizon,
                  is_static = !scene.time.is_dynamic(), is_in_space = scene.domain.is_in_space(),
-                 is_on_cubes = is_in_space && scene.methods.nodes.are_lattice_centres();
+                 is_on_cubes = is_in_space && scene.domain.mesh.is_lattice() &&
+                               scene.methods.nodes.are_lattice_centres();
       const std::string exact = "two dimensions; entries on lattices in three dimensions are exact";
-      return {{"Study/m", !takes_horizon,
-               "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
-                   " the horizon is Study/horizon"},
-              {"Study/horizon", takes_horizon,
-               "Study/regime = m or horizon; with " + base::word(regime) +
-                   " the horizon is Study/m times Study/h"},
-              {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
-               "Domain/mesh = lattice, squares or triangles: other meshes define the domain"},
-              {"Output/points", is_static, "a static problem"},
-              {"Output/fields", is_static, "a static problem; Time/frames writes states"},
-              {"Reference/tolerance", is_static, "a static problem"},
-              {"Problem/local solution",
-               is_static || scene.problem.local_solution == LocalSolution::none,
-               "a static problem"},
-              {"Quadrature/entries", !is_in_space, exact},
-              {"Quadrature/tolerance", !is_in_space, exact},
-              {"Quadrature/max refinements", !is_in_space, exact},
-              {"Geometry/backend", !is_in_space, "two dimensions"},
-              {"Geometry/checks", !is_in_space, "two dimensions"},
-              {"Geometry/seed", !is_in_space || scene.methods.nodes.perturbation > 0,
-               "two dimensions, or Methods/perturbation > 0"},
-              {"Solver/linear solver", !is_on_cubes,
-               "two dimensions or scattered nodes; lattices in three dimensions are solved by "
-               "conjugate gradients with sine transforms"},
-              {"Solver/tolerance", is_static || !is_in_space, "a static problem"},
-              {"Solver/max iterations", is_static || !is_in_space, "a static problem"},
-              {"Time/critical fractions", scene.time.steps.empty(),
-               "Time/steps to be empty, which gives the steps themselves"},
-              {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,
-               "Fracture/breaking = steps"}};
+      return {
+          {"Study/m", !takes_horizon,
+           "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
+               " the horizon is Study/horizon"},
+          {"Study/horizon", takes_horizon,
+           "Study/regime = m or horizon; with " + base::word(regime) +
+               " the horizon is Study/m times Study/h"},
+          {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
+           "Domain/mesh = lattice, squares or triangles: other meshes define the domain"},
+          {"Output/points", is_static, "a static problem"},
+          {"Output/fields", is_static, "a static problem; Time/frames writes states"},
+          {"Reference/tolerance", is_static, "a static problem"},
+          {"Problem/local solution",
+           is_static || scene.problem.local_solution == LocalSolution::none, "a static problem"},
+          {"Quadrature/entries", !is_in_space, exact},
+          {"Quadrature/tolerance", !is_in_space, exact},
+          {"Quadrature/max refinements", !is_in_space, exact},
+          {"Geometry/backend", !is_in_space, "two dimensions"},
+          {"Geometry/checks", !is_in_space, "two dimensions"},
+          {"Geometry/seed", !is_in_space || scene.methods.nodes.perturbation > 0,
+           "two dimensions, or Methods/perturbation > 0"},
+          {"Solver/linear solver", !is_on_cubes,
+           "two dimensions, meshes or scattered nodes; lattices in three dimensions are solved by "
+           "conjugate gradients with sine transforms"},
+          {"Solver/tolerance", is_static || !is_in_space, "a static problem"},
+          {"Solver/max iterations", is_static || !is_in_space, "a static problem"},
+          {"Time/critical fractions", scene.time.steps.empty(),
+           "Time/steps to be empty, which gives the steps themselves"},
+          {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,
+           "Fracture/breaking = steps"}};
     }
 
     std::vector<Use> uses_of_material(const Scene &scene)

@@ -292,7 +292,7 @@ namespace plumbline::study
       const std::string where =
           " (" + largest->key.method + ", h = " + base::to_text(largest->key.h, 4) + ")";
       const auto megabytes = [](double bytes) { return base::to_text(bytes / 1e6, 4) + " MB"; };
-      if (!scene.domain.mesh.is_lattice())
+      if (!scene.domain.mesh.is_lattice() && !scene.domain.is_in_space())
       {
         results.omissions.push_back({"exact geometry in every cell",
                                      "circles are cut in double precision, good to round-off",
@@ -301,7 +301,8 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.solver.operator_backend != base::OperatorBackend::sparse &&
+      else if (scene.domain.mesh.is_lattice() &&
+               scene.solver.operator_backend != base::OperatorBackend::sparse &&
                (!scene.domain.is_in_space() || scene.methods.nodes.are_lattice_centres()))
         results.omissions.push_back(
             {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
+#include "scene/mesh_in_space.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 
@@ -56,16 +57,46 @@ namespace plumbline::study
       return size;
     }
 
+    /// Of tetrahedra, as six of each cube of the same volume.
+    method::ProblemSize mesh_size_in_space(const scene::Scene &scene, const problem::Level &level)
+    {
+      constexpr double n_in_cube = 6;
+      const auto mesh = make_mesh_in_space(scene, level);
+      method::ProblemSize size = size_of(scene, level);
+      double volume = 0;
+      for (std::size_t cell = 0; cell < mesh->cells.size(); ++cell)
+        volume += geometry::determinant(*mesh, cell) / n_in_cube;
+      size.n_cells = static_cast<double>(mesh->cells.size());
+      for (const char is_inside : mesh->is_inside)
+        size.n_free += is_inside != 0 ? 1 : 0;
+      size.level.h = std::cbrt(n_in_cube * volume / size.n_cells);
+      size.depth = std::cbrt(size.n_free / n_in_cube);
+      size.extents = {size.depth, size.depth};
+      size.is_scattered = true;
+      return size;
+    }
+
+    /// The same of nodes at the centroids of the tetrahedra.
+    method::ProblemSize of_centroids(method::ProblemSize size)
+    {
+      const double finer = std::cbrt(size.n_free) / size.depth;
+      size.level.h /= finer;
+      size.depth *= finer;
+      size.extents = {size.depth, size.depth};
+      return size;
+    }
+
     /// The same body in cells of another size.
     method::ProblemSize at_level(method::ProblemSize size, const problem::Level &level)
     {
       const double finer = std::pow(size.level.h / level.h, 2);
+      const double of_cells = size.depth > 0 ? std::pow(finer, 1.5) : finer;
       size.level = level;
       for (double &extent : size.extents)
         extent *= std::sqrt(finer);
       size.depth *= std::sqrt(finer);
-      size.n_cells *= finer;
-      size.n_free *= finer;
+      size.n_cells *= of_cells;
+      size.n_free *= of_cells;
       size.cell_area /= finer;
       return size;
     }
@@ -77,17 +108,20 @@ namespace plumbline::study
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
-      if (size.is_lattice())
+      if (size.is_lattice() && size.n_cells == 0)
         text << size.extents[0] << " x " << size.extents[1]
              << (size.depth > 0 ? " x " + std::to_string(std::lround(size.depth)) : "")
              << " cells)";
       else
         text << "some " << std::round(size.n_cells) << " cells)";
-      base::require_memory(method.expected_bytes(size) + more, text.str(),
-                           "choose a larger h or a smaller horizon (Study/h, Study/m, "
-                           "Study/horizon), run the first levels only (--levels), or leave this "
-                           "method out (--methods)",
-                           n_jobs);
+      const bool is_of_centroids =
+          size.depth > 0 && size.n_cells > 0 && method.family() == method::MethodFamily::meshfree;
+      base::require_memory(
+          method.expected_bytes(is_of_centroids ? of_centroids(size) : size) + more, text.str(),
+          "choose a larger h or a smaller horizon (Study/h, Study/m, "
+          "Study/horizon), run the first levels only (--levels), or leave this "
+          "method out (--methods)",
+          n_jobs);
     }
 
     /// With what an estimate of its error solves besides.
@@ -105,6 +139,8 @@ namespace plumbline::study
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
     method::ProblemSize measured_size(const scene::Scene &scene, const problem::Level &level)
     {
+      if (scene.domain.is_in_space() && scene.domain.mesh.is_file())
+        return mesh_size_in_space(scene, level);
       if (scene.domain.is_free_body)
         return mesh_size(scene, *scene::make_body(scene, level).mesh, level);
       return scene.domain.mesh.is_lattice()

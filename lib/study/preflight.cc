@@ -2,9 +2,11 @@
 
 #include "base/error.h"
 #include "base/similar_words.h"
+#include "geometry/tetrahedral_domain.h"
 #include "scene/capabilities.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
+#include "scene/mesh_in_space.h"
 #include "scene/origin.h"
 #include "scene/values.h"
 #include "study/method_names.h"
@@ -36,7 +38,8 @@ namespace plumbline::study
     /// In space `all` leaves out methods on tetrahedra, which take far more memory than others.
     bool has_its_nodes(const scene::Scene &scene, const Method &method)
     {
-      return !scene.domain.is_in_space() || method.can().count(method::Capability::lattice) > 0;
+      return !scene.domain.is_in_space() || scene.domain.mesh.is_file() ||
+             method.can().count(method::Capability::lattice) > 0;
     }
   } // namespace
 
@@ -145,6 +148,14 @@ namespace plumbline::study
         check_node_data(problem);
     }
 
+    [[noreturn]] void refuse_same_cells(const scene::Scene &scene, std::size_t n_cells)
+    {
+      throw InputError("Domain/mesh = " + scene.domain.mesh.name + " has the " +
+                       std::to_string(n_cells) +
+                       " cells of the level before, so that rates would mean nothing; give "
+                       "a mesh that follows h, or a single value of Study/h");
+    }
+
     /// Meshes and nodes of all levels can be used, and differ where h does.
     void check_meshes(const scene::Scene &whole)
     {
@@ -170,15 +181,40 @@ namespace plumbline::study
                 std::count_if(mesh.cells.begin(), mesh.cells.end(),
                               [](const geometry::MeshCell &cell) { return cell.is_inside; }));
             if (n_cells == before && level.h != series.levels[i - 1].h)
-              throw InputError("Domain/mesh = " + scene.domain.mesh.name + " has the " +
-                               std::to_string(n_cells) +
-                               " cells of the level before, so that rates would mean nothing; give "
-                               "a mesh that follows h, or a single value of Study/h");
+              refuse_same_cells(scene, n_cells);
             before = n_cells;
           }
           catch (const InputError &error)
           {
             throw InputError(scene::with_origin(where.str() + error.what(), whole.domain.origin));
+          }
+        }
+      }
+    }
+
+    void check_meshes_in_space(const scene::Scene &scene)
+    {
+      for (const auto &series : scene.study.series)
+      {
+        std::ptrdiff_t before = 0;
+        for (std::size_t i = 0; i < series.levels.size(); ++i)
+        {
+          const problem::Level &level = series.levels[i];
+          try
+          {
+            const auto mesh = make_mesh_in_space(scene, level);
+            (void)geometry::cubes_within(*mesh, level.h);
+            const auto n_cells = std::count(mesh->is_inside.begin(), mesh->is_inside.end(), 1);
+            if (n_cells == before && level.h != series.levels[i - 1].h)
+              refuse_same_cells(scene, static_cast<std::size_t>(n_cells));
+            before = n_cells;
+          }
+          catch (const InputError &error)
+          {
+            std::ostringstream where;
+            where << "level h = " << level.h << ", horizon = " << level.horizon << ": "
+                  << error.what();
+            throw InputError(where.str());
           }
         }
       }
@@ -189,7 +225,7 @@ namespace plumbline::study
   {
     check_analysis(scene, scene::Analysis::statics);
     if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
-      check_meshes(scene);
+      scene.domain.is_in_space() ? check_meshes_in_space(scene) : check_meshes(scene);
     std::map<std::pair<double, double>, scene::CellsInSpace> cells; // by h and horizon
     const auto check = [&](unsigned int c, const problem::Level &level)
     {

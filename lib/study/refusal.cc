@@ -22,19 +22,26 @@ namespace plumbline::study
       return std::includes(can.begin(), can.end(), needed.begin(), needed.end());
     }
 
-    /// The first few; those of the same side, if there are any.
+    /// The first few; those of the same side, if there are any, and of these in space those on
+    /// cells of the same kind.
     std::string others(const Method &method, const Capabilities &needed, const Methods &available)
     {
       constexpr std::size_t n_shown = 3;
-      std::vector<std::string> alike, all;
+      const auto is_on_tetrahedra = [](const Method &one)
+      { return one.can().count(method::Capability::lattice) == 0; };
+      const bool is_in_space = needed.count(method::Capability::space) > 0;
+      std::vector<std::string> nearest, alike, all;
       for (const auto &other : available)
         if (other->is_in_all() && can_do(*other, needed))
         {
           all.push_back(other->name());
-          if (other->family() == method.family())
-            alike.push_back(other->name());
+          if (other->family() != method.family())
+            continue;
+          alike.push_back(other->name());
+          if (is_in_space && is_on_tetrahedra(*other) == is_on_tetrahedra(method))
+            nearest.push_back(other->name());
         }
-      const auto &names = alike.empty() ? all : alike;
+      const auto &names = !nearest.empty() ? nearest : !alike.empty() ? alike : all;
       std::string text;
       for (std::size_t i = 0; i < std::min(names.size(), n_shown); ++i)
         text += (i == 0 ? "" : ", ") + names[i];
@@ -73,7 +80,18 @@ namespace plumbline::study
   std::string refusal_in_space(const Method &method, const scene::Scene &scene,
                                const Methods &available)
   {
-    const std::string why = refusal(method, scene, scene::needs(scene), available);
+    scene::Capabilities needed = scene::needs(scene);
+    const scene::MeshSource &mesh = scene.domain.mesh;
+    if (mesh.is_file())
+    {
+      needed.insert(method::Capability::triangles);
+      if (method.family() == method::MethodFamily::meshfree &&
+          scene.methods.nodes.kind() == scene::NodeKind::centres)
+        return "its nodes are lattice centres, which Domain/mesh = " + mesh.name +
+               " has none of in three dimensions; write Methods/nodes = mesh (the centroids of the "
+               "tetrahedra), or take P1 or DGP0";
+    }
+    const std::string why = refusal(method, scene, needed, available);
     return why.empty() ? method.why_not_in_space(scene::make_kernel_in_space(
                              scene, scene.study.series.front().levels.front().horizon))
                        : why;

@@ -3,6 +3,7 @@
 #include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "geometry/tetrahedral_domain.h"
 #include "physics/gauss.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
@@ -59,9 +60,13 @@ namespace plumbline::study
       return result;
     }
 
+    /// What the average over a cube stands for: itself; of a mesh an equal part of Ω, whose cubes
+    /// leave out a layer at its boundary, so that norms of levels are those of one domain.
     double cell_volume(const ProblemInSpace &problem)
     {
-      return std::pow(problem.h(), 3);
+      if (!problem.mesh)
+        return std::pow(problem.h(), 3);
+      return geometry::volume(*problem.mesh) / static_cast<double>(problem.lattice.size());
     }
 
     /// The L2 distance of averages over the cells of a problem; `b` empty: 0.

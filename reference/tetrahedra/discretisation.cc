@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "geometry/tetrahedral_domain.h"
 #include "method/limit_proof.h"
 #include "method/linear_equations.h"
 #include "method/sparse_discretisation.h"
@@ -20,17 +21,17 @@ namespace plumbline::reference
   {
     using dealii::Point;
 
+    /// Rows of a mesh of many shapes that are computed twice, or somewhat more.
+    constexpr std::size_t n_sampled = 4;
+
     class GalerkinOnTetrahedra : public method::DiscretisationInSpace,
                                  public method::HasLinearEquations<3>
     {
     public:
       GalerkinOnTetrahedra(const problem::Problem<3> &problem, bool is_continuous)
-          : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra)
+          : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra && !problem.mesh)
       {
-        const auto mesh = std::make_shared<const TetrahedralMesh>(
-            is_of_cubes_ ? geometry::six_per_cube(
-                               lattice_, geometry::layers_within(problem.horizon(), problem.h()))
-                         : problem.make_tetrahedra());
+        const auto mesh = std::make_shared<const TetrahedralMesh>(make_mesh(problem));
         space_ = std::make_shared<const TetrahedralSpace>(mesh, is_continuous);
         if (space_->n_free() == 0)
           throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
@@ -87,6 +88,17 @@ namespace plumbline::reference
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
     private:
+      /// Of a mesh whose shapes differ the rows that are sampled are those about the thinnest
+      /// cells.
+      TetrahedralMesh make_mesh(const problem::Problem<3> &problem) const
+      {
+        if (is_of_cubes_)
+          return geometry::six_per_cube(lattice_,
+                                        geometry::layers_within(problem.horizon(), problem.h()));
+        return geometry::with_thinnest_first(
+            problem.mesh ? *problem.mesh : problem.make_tetrahedra(), n_sampled);
+      }
+
       /// The constraint at the unknowns that free ones see, 0 at others.
       std::vector<double> constraint_values(const problem::Problem<3> &problem) const
       {
@@ -146,7 +158,6 @@ namespace plumbline::reference
         }
         else
         {
-          constexpr std::size_t n_sampled = 4;
           const auto rows = [&](std::size_t n, unsigned int refinement)
           { return assemble_by_faces(*space_, problem.kernel, n, refinement); };
           matrix = rows(n_unknowns(), 0);
@@ -155,10 +166,12 @@ namespace plumbline::reference
         }
         constexpr double too_much = .01;
         if (!(error <= too_much))
-          throw NumericalError("entries by quadrature over pairs of faces are wrong by some " +
-                               base::to_text(error, 1) +
-                               " of the diagonal, since tetrahedra are thin; choose a smaller "
-                               "Methods/perturbation or Study/m");
+          throw NumericalError(
+              "entries by quadrature over pairs of faces are wrong by some " +
+              base::to_text(error, 1) + " of the diagonal, since tetrahedra are thin; " +
+              (problem.mesh ? "mend the mesh (gmsh: Mesh.Optimize = 1, "
+                              "Mesh.OptimizeNetgen = 1), or choose a smaller Study/m"
+                            : "choose a smaller Methods/perturbation or Study/m"));
         diagnostics_.notes.push_back(
             "entries by quadrature over pairs of faces; " + change + base::to_text(error, 1) +
             " of the diagonal at most" +

@@ -53,12 +53,16 @@ namespace plumbline::reference
       const double h = lattice.h();
       const geometry::Cuboid box = box_of(mesh, cell);
       std::array<int, 3> from{}, to{};
+      bool is_within = true; // cells of a mesh may reach beyond its cubes
       for (unsigned int d = 0; d < 3; ++d)
       {
         from[d] = static_cast<int>(std::floor((box.lower[d] - lattice.origin()[d]) / h + rounding));
         to[d] = static_cast<int>(std::ceil((box.upper[d] - lattice.origin()[d]) / h - rounding));
+        is_within = is_within && from[d] >= 0 && to[d] <= lattice.n_cells()[d];
+        from[d] = std::max(from[d], 0);
+        to[d] = std::min(to[d], lattice.n_cells()[d]);
       }
-      if (to[0] - from[0] == 1 && to[1] - from[1] == 1 && to[2] - from[2] == 1)
+      if (is_within && to[0] - from[0] == 1 && to[1] - from[1] == 1 && to[2] - from[2] == 1)
       {
         constexpr double quarter = 1. / 4;
         visit(lattice.number(from), determinant(mesh, cell) / (6 * std::pow(h, 3)),
@@ -136,7 +140,7 @@ namespace plumbline::reference
     if (best == -rounding)
     {
       std::ostringstream message;
-      message << "(" << x << ") is outside the domain; take points in Domain/boxes";
+      message << "(" << x << ") is outside the domain; take points inside it";
       throw NumericalError(message.str());
     }
     return found;

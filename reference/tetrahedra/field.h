@@ -23,8 +23,8 @@ namespace plumbline::reference
     /// @throws NumericalError  a point outside Ω
     dealii::Tensor<1, 3> gradient(const dealii::Point<3> &x) const;
 
-    /// Over the cells of a lattice, whose cells of Ω and those of the mesh fill the same space.
-    /// Exact to round-off.
+    /// Over the cells of a lattice, which those of the mesh fill, and perhaps more space. Exact to
+    /// round-off.
     std::vector<double> averages(const geometry::CubeLattice &lattice) const;
 
   private:

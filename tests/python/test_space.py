@@ -207,3 +207,41 @@ def test_solutions_have_values_and_gradients_at_points():
                            box=((0, 0, 0), (1, 1, 1)), solution="x - z, 2*y, x + 3*z")
     assert space.solve(tensor, "Q1").gradient(points) == pytest.approx(
         np.tile([[1, 0, -1], [0, 2, 0], [1, 0, 3]], (3, 1, 1)), abs=1e-9)
+
+
+BALL = """
+SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.5, delta = 0.5 ];
+Sphere(1) = {0, 0, 0, 1};
+Sphere(2) = {0, 0, 0, 1 + delta + h / 4};
+BooleanFragments{ Volume{2}; Delete; }{ Volume{1}; Delete; }
+Physical Volume("omega") = {1};
+Physical Volume("collar") = {2};
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
+Mesh.OptimizeThreshold = 0.7;
+"""
+
+
+def test_problems_on_tetrahedra_of_gmsh_are_exact_for_linear_fields(tmp_path):
+    file = tmp_path / "ball.geo"
+    file.write_text(BALL)
+    kernel = space.Kernel("constant", .6, diffusion=.5)
+    problem = space.Problem(kernel, mesh=str(file), h=.6, solution="x + 2*y - z")
+    for method in ("P1", "IPA-AC-R2"):
+        solved = space.solve(problem, method)
+        assert solved.values == pytest.approx(solved.nodes @ [1, 2, -1], abs=1e-9)
+    points = np.array([[.1, .2, -.3], [0, -.5, .5]])
+    p1 = space.solve(problem, "P1")
+    assert p1(points) == pytest.approx(points @ [1, 2, -1])
+    assert p1.gradient(points) == pytest.approx(np.array([[1, 2, -1]] * 2))
+    assert space.matrix(problem, "P1").nodes.shape[1] == 3
+    with pytest.raises(ValueError, match="points.0. = .*outside"):
+        p1([[0, 0, 1.1]])
+    with pytest.raises(ValueError, match="is for lattices of cubes"):
+        space.solve(problem, "Q1")
+    with pytest.raises(ValueError, match="either by box .* or by mesh"):
+        space.Problem(kernel, mesh=str(file), box=((0, 0, 0), (1, 1, 1)), h=.5, solution="x")
+    (tmp_path / "thin.geo").write_text(BALL.replace("1 + delta + h / 4", "1 + delta / 2"))
+    with pytest.raises(ValueError, match="thin.geo': the interaction domain is"):
+        space.Problem(kernel, mesh=str(tmp_path / "thin.geo"), h=.6, solution="x")

@@ -36,7 +36,7 @@ namespace plumbline::scene
         "have one component (transient analyses of Material/model = double well with "
         "Domain/boundary = periodic). 3: space; expressions depend on x, y and z "
         "(static, transient and dispersion analyses and quasi-static fracture of linear models "
-        "with Domain/mesh = lattice).");
+        "with Domain/mesh = lattice; static analyses on tetrahedra of a gmsh file).");
     keys.add(
         "boxes", "0, 0 : 1, 1", any_boxes(),
         [this](const std::string &text)
@@ -60,7 +60,8 @@ namespace plumbline::scene
              "lattice: the boxes divided into uniform squares that share one stencil. squares, "
              "triangles: the same boxes as a mesh with its own matrix entries. A file .msh, or "
              ".geo with the constants h and delta, whose physical surfaces are named omega... (the "
-             "domain) and collar... (the interaction domain). Or the name of a deal.II generator, "
+             "domain) and collar... (the interaction domain); with Domain/dimension = 3 physical "
+             "volumes, meshed by tetrahedra. Or the name of a deal.II generator, "
              "e.g. hyper_ball_balanced. gmsh meshes .geo files in a separate process with limits "
              "(120 CPU seconds, 4 GiB; the environment variables PLUMBLINE_GMSH_SECONDS and "
              "PLUMBLINE_GMSH_GIBIBYTES change them); commands that start programs or write files "
