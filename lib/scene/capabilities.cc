@@ -169,8 +169,7 @@ namespace plumbline::scene
                         std::inserter(missing, missing.end()));
     if (missing.empty())
       return "";
-    // what has no third axis needs other methods, whatever else it cannot do
-    const Need need = describe(missing.count(C::space) > 0 ? C::space : *missing.begin(), scene);
+    const Need need = describe(*missing.begin(), scene);
     const std::string take = others.empty() ? "" : "take " + others;
     return need.text + "; " + take + (take.empty() || need.remedy.empty() ? "" : ", or ") +
            need.remedy;

@@ -91,6 +91,9 @@ namespace plumbline::study
                " has none of in three dimensions; write Methods/nodes = mesh (the centroids of the "
                "tetrahedra), or take P1 or DGP0";
     }
+    if (method.can().count(method::Capability::space) == 0)
+      return "it is implemented in two dimensions only, and Domain/dimension = 3; take " +
+             others(method, needed, available);
     const std::string why = refusal(method, scene, needed, available);
     return why.empty() ? method.why_not_in_space(scene::make_kernel_in_space(
                              scene, scene.study.series.front().levels.front().horizon))

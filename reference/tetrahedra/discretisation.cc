@@ -21,9 +21,6 @@ namespace plumbline::reference
   {
     using dealii::Point;
 
-    /// Rows of a mesh of many shapes that are computed twice, or somewhat more.
-    constexpr std::size_t n_sampled = 4;
-
     class GalerkinOnTetrahedra : public method::DiscretisationInSpace,
                                  public method::HasLinearEquations<3>
     {
@@ -95,8 +92,9 @@ namespace plumbline::reference
         if (is_of_cubes_)
           return geometry::six_per_cube(lattice_,
                                         geometry::layers_within(problem.horizon(), problem.h()));
+        constexpr std::size_t n_first = 4; // cells, which have at least as many vertices
         return geometry::with_thinnest_first(
-            problem.mesh ? *problem.mesh : problem.make_tetrahedra(), n_sampled);
+            problem.mesh ? *problem.mesh : problem.make_tetrahedra(), n_first);
       }
 
       /// The constraint at the unknowns that free ones see, 0 at others.
@@ -158,6 +156,7 @@ namespace plumbline::reference
         }
         else
         {
+          constexpr std::size_t n_sampled = 4;
           const auto rows = [&](std::size_t n, unsigned int refinement)
           { return assemble_by_faces(*space_, problem.kernel, n, refinement); };
           matrix = rows(n_unknowns(), 0);
@@ -166,12 +165,10 @@ namespace plumbline::reference
         }
         constexpr double too_much = .01;
         if (!(error <= too_much))
-          throw NumericalError(
-              "entries by quadrature over pairs of faces are wrong by some " +
-              base::to_text(error, 1) + " of the diagonal, since tetrahedra are thin; " +
-              (problem.mesh ? "mend the mesh (gmsh: Mesh.Optimize = 1, "
-                              "Mesh.OptimizeNetgen = 1), or choose a smaller Study/m"
-                            : "choose a smaller Methods/perturbation or Study/m"));
+          throw NumericalError("entries by quadrature over pairs of faces are wrong by some " +
+                               base::to_text(error, 1) +
+                               " of the diagonal, since tetrahedra are thin; choose a smaller "
+                               "Methods/perturbation or Study/m");
         diagnostics_.notes.push_back(
             "entries by quadrature over pairs of faces; " + change + base::to_text(error, 1) +
             " of the diagonal at most" +

@@ -1,6 +1,5 @@
 // Problems in space on meshes from gmsh files, from the scene to verdicts.
-#include "physics/kernel.h"
-#include "reference/tetrahedra/assembly.h"
+#include "method/linear_equations.h"
 #include "scene/problem.h"
 #include "study/preflight.h"
 #include "tests/geometry/tetrahedra_file.h"
@@ -143,9 +142,12 @@ TEST_F(ProblemsOnTetrahedra, have_symmetric_entries_that_leave_nothing_of_linear
   const auto scene = make({});
   const auto problem =
       scene::make_problem_in_space(scene, 0, scene.study.series.front().levels.front());
-  const reference::TetrahedralSpace space(problem.mesh, true);
-  ASSERT_GT(space.n_free(), 5u);
-  const auto rows = reference::assemble_by_faces(space, problem.kernel, space.n_free(), 0);
+  const auto discretisation = find_method(available(), "P1", "test")->discretise_in_space(problem);
+  const auto *shown = dynamic_cast<const method::HasLinearEquations<3> *>(discretisation.get());
+  ASSERT_NE(shown, nullptr);
+  const auto equations = shown->equations(problem);
+  const algebra::CsrMatrix &rows = equations.rows;
+  ASSERT_GT(rows.n_rows(), 5u);
   std::map<std::pair<std::size_t, std::size_t>, double> entries;
   double largest = 0;
   for (std::size_t i = 0; i < rows.n_rows(); ++i)
@@ -159,10 +161,11 @@ TEST_F(ProblemsOnTetrahedra, have_symmetric_entries_that_leave_nothing_of_linear
     double sum = 0;
     for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
     {
-      sum += rows.value[k] * (space.support(rows.column[k]) * dealii::Point<3>(1, 2, 3) + 1);
-      if (rows.column[k] < rows.n_rows())
+      const std::size_t j = rows.column[k];
+      sum += rows.value[k] * (equations.nodes[j] * dealii::Point<3>(1, 2, 3) + 1);
+      if (j < rows.n_rows())
       {
-        EXPECT_NEAR(rows.value[k], (entries[{rows.column[k], i}]), 1e-13 * largest);
+        EXPECT_NEAR(rows.value[k], (entries[{j, i}]), 1e-13 * largest);
       }
     }
     EXPECT_NEAR(sum, 0, 1e-12 * largest);
@@ -219,8 +222,8 @@ TEST_F(ProblemsOnTetrahedra, are_refused_on_meshes_that_do_not_fit_the_level)
 TEST(MethodsInSpace, that_are_of_the_plane_name_those_on_the_same_cells)
 {
   const std::string message = in_space::message_of({{"Methods/names", "P2"}});
-  EXPECT_NE(message.find("Domain/dimension = 3"), std::string::npos) << message;
-  EXPECT_NE(message.find("take P1, DGP0, or write 2"), std::string::npos) << message;
+  EXPECT_NE(message.find("in two dimensions only"), std::string::npos) << message;
+  EXPECT_NE(message.find("take P1, DGP0"), std::string::npos) << message;
   EXPECT_EQ(message.find("squares or triangles"), std::string::npos) << message;
   EXPECT_NE(in_space::message_of({{"Methods/names", "Q3"}}).find("take Q1, Q2, DGQ0"),
             std::string::npos);
