@@ -1,13 +1,16 @@
 #include "reference/tetrahedra/assembly.h"
 
 #include "geometry/search.h"
-#include "reference/tetrahedra/face_pairs.h"
+#include "reference/tetrahedra/exact_pairs.h"
 
 #include <deal.II/base/parallel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 namespace plumbline::reference
@@ -41,20 +44,135 @@ namespace plumbline::reference
       row = std::move(sum);
     }
 
-    /// Sums over the faces G about a face.
-    class FaceRows
+    /// The faces of a mesh, those that are near to each other together.
+    class SortedFaces
     {
     public:
-      FaceRows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
-               unsigned int refinement)
-          : space_(space), faces_(make_faces(space)),
-            potential_(kernel, space.is_continuous() ? FacePotential::Kind::biharmonic
-                                                     : FacePotential::Kind::harmonic),
-            pairs_(potential_, refinement), search_(scale_faces(kernel.horizon()))
+      SortedFaces(const TetrahedralSpace &space, double horizon) : faces_(make_faces(space))
       {
+        const TetrahedralMesh &mesh = space.mesh();
+        double volume = 0;
+        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+          volume += determinant(mesh, cell) / 6 / std::pow(horizon, 3);
+        of_vertex_ = volume / static_cast<double>(mesh.vertices.size());
+        of_cell_ = volume / static_cast<double>(mesh.cells.size());
+        sort(mesh, horizon);
+        std::map<std::array<unsigned int, 2>, unsigned int> edges;
+        for (const SpaceFace &face : faces_)
+        {
+          NumberedFace numbered;
+          numbered.number = static_cast<unsigned int>(numbered_.size());
+          for (unsigned int k = 0; k < 3; ++k)
+          {
+            std::array<unsigned int, 2> ends = {face.vertices[k], face.vertices[(k + 1) % 3]};
+            std::sort(ends.begin(), ends.end());
+            numbered.edges[k] =
+                edges.try_emplace(ends, static_cast<unsigned int>(edges.size())).first->second;
+          }
+          numbered_.push_back(numbered);
+        }
+        for (const SpaceFace &face : faces_)
+          scaled_.emplace_back(scale(mesh, horizon, face), face.vertices);
+        for (NumberedFace &face : numbered_)
+          face.face = &scaled_[face.number];
       }
 
       const std::vector<SpaceFace> &faces() const { return faces_; }
+      const NumberedFace &numbered(std::size_t face) const { return numbered_[face]; }
+      /// First faces of blocks, and the end.
+      const std::vector<std::size_t> &blocks() const { return blocks_; }
+      double volume_of_vertex() const { return of_vertex_; } ///< the mean [horizons]
+      double volume_of_cell() const { return of_cell_; }     ///< the mean [horizons]
+
+      std::vector<geometry::Cuboid> boxes() const
+      {
+        std::vector<geometry::Cuboid> boxes;
+        for (const PairFace &face : scaled_)
+        {
+          const auto &x = face.vertices();
+          geometry::Cuboid box{x[0], x[0]};
+          for (const Point<3> &vertex : x)
+            for (unsigned int d = 0; d < 3; ++d)
+            {
+              box.lower[d] = std::min(box.lower[d], vertex[d]);
+              box.upper[d] = std::max(box.upper[d], vertex[d]);
+            }
+          boxes.push_back(box);
+        }
+        return boxes;
+      }
+
+    private:
+      static PairFace::Vertices scale(const TetrahedralMesh &mesh, double horizon,
+                                      const SpaceFace &face)
+      {
+        PairFace::Vertices x;
+        for (unsigned int k = 0; k < 3; ++k)
+          x[k] = Point<3>((mesh.vertices[face.vertices[k]] - mesh.vertices.front()) / horizon);
+        return x;
+      }
+
+      /// By cubes two vertices wide, which are the blocks.
+      void sort(const TetrahedralMesh &mesh, double horizon)
+      {
+        constexpr double vertices_across = 2;
+        const double size = vertices_across * std::cbrt(of_vertex_);
+        using Key = std::array<long, 3>;
+        std::vector<std::pair<Key, std::size_t>> keys;
+        for (const SpaceFace &face : faces_)
+        {
+          const PairFace::Vertices x = scale(mesh, horizon, face);
+          Key key{};
+          for (unsigned int d = 0; d < 3; ++d)
+            key[d] = std::lround(std::floor((x[0][2 - d] + x[1][2 - d] + x[2][2 - d]) / 3 / size));
+          keys.emplace_back(key, keys.size());
+        }
+        std::sort(keys.begin(), keys.end());
+        std::vector<SpaceFace> sorted;
+        for (std::size_t k = 0; k < keys.size(); ++k)
+        {
+          if (k == 0 || keys[k].first != keys[k - 1].first)
+            blocks_.push_back(k);
+          sorted.push_back(faces_[keys[k].second]);
+        }
+        blocks_.push_back(keys.size());
+        faces_ = std::move(sorted);
+      }
+
+      std::vector<SpaceFace> faces_;
+      double of_vertex_ = 0, of_cell_ = 0;
+      std::vector<std::size_t> blocks_;
+      std::vector<PairFace> scaled_; ///< the faces [horizons]
+      std::vector<NumberedFace> numbered_;
+    };
+
+    /// Sums over the faces G about a face F, each pair once: those with G = F by half, and others
+    /// with one order of F and G, so that the matrix is the sum and its transpose.
+    class FaceRows
+    {
+    public:
+      FaceRows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel, std::size_t n_rows,
+               const FaceRule &rule)
+          : space_(space), n_rows_(n_rows), faces_(space, kernel.horizon()),
+            kind_(space.is_continuous() ? FacePotential::Kind::biharmonic
+                                        : FacePotential::Kind::harmonic),
+            potential_(kernel, kind_), spacing_(rule.spacing / kernel.horizon()),
+            search_(faces_.boxes())
+      {
+        if (rule.is_exact)
+          exact_.emplace(kernel, kind_, rule.tolerance * scale_of_pairs(kernel));
+        else
+          by_rule_.emplace(potential_, rule.refinement);
+        for (const SpaceFace &face : faces_.faces())
+          is_needed_.push_back(std::any_of(face.jumps.begin(), face.jumps.end(),
+                                           [n_rows](const SpaceFace::Jump &jump)
+                                           { return jump.dof < n_rows; })
+                                   ? 1
+                                   : 0);
+      }
+
+      const std::vector<SpaceFace> &faces() const { return faces_.faces(); }
+      const std::vector<std::size_t> &blocks() const { return faces_.blocks(); }
       double diffusion() const { return potential_.diffusion(); }
 
       /// What a thread needs for itself.
@@ -62,12 +180,49 @@ namespace plumbline::reference
       {
         std::vector<unsigned int> near, columns;
         std::vector<double> sums; ///< of all unknowns, 0 between calls
+        ExactPairs::Shared shared;
+        FaceRuleUse use;
       };
 
-      /// Of unknowns j: Σ_G ∬_{F×G} Λ n_F·n_j(G), or -Σ_G J_j(G) ∬_{F×G} Ψ.
-      Row operator()(std::size_t face, Workspace &work) const
+      /// rows = sums of the faces of a block.
+      /// @param rows  as many as the block has faces
+      void add_block(std::size_t block, Row *rows, Workspace &work) const
       {
-        const PairFace &f = scaled_[face];
+        const std::size_t first = blocks()[block], last = blocks()[block + 1];
+        std::vector<std::vector<unsigned int>> near(last - first);
+        std::vector<const NumberedFace *> own, all;
+        std::vector<char> is_met(faces().size() - first);
+        for (std::size_t face = first; face < last; ++face)
+        {
+          near[face - first] = partners(face, work);
+          if (near[face - first].empty())
+            continue;
+          own.push_back(&faces_.numbered(face));
+          for (const unsigned int other : near[face - first])
+            if (is_met[other - first] == 0)
+            {
+              is_met[other - first] = 1;
+              all.push_back(&faces_.numbered(other));
+            }
+        }
+        if (exact_)
+          work.shared.start(own, all);
+        for (std::size_t face = first; face < last; ++face)
+          rows[face - first] = make_row(face, near[face - first], work);
+      }
+
+    private:
+      /// m₀ times a volume, and divided by jumps.
+      double scale_of_pairs(const physics::Kernel<3> &kernel) const
+      {
+        const double m0 = 4 * M_PI * kernel.profile().moment(2);
+        return m0 * (space_.is_continuous() ? std::pow(faces_.volume_of_vertex(), 5. / 3)
+                                            : faces_.volume_of_cell());
+      }
+
+      /// Faces G >= F so near that f may not vanish, one of the two with a row that is asked for.
+      std::vector<unsigned int> partners(std::size_t face, Workspace &work) const
+      {
         auto [lower, upper] = search_.box(static_cast<unsigned int>(face));
         for (unsigned int d = 0; d < 3; ++d)
         {
@@ -75,16 +230,71 @@ namespace plumbline::reference
           upper[d] += 1;
         }
         search_.find({lower, upper}, work.near);
-        work.sums.resize(space_.n_dofs());
-        work.columns.clear();
+        const PairFace &f = *faces_.numbered(face).face;
+        std::vector<unsigned int> result;
         for (const unsigned int other : work.near)
         {
-          const double integral = pairs_(f, scaled_[other]);
-          if (integral == 0)
+          const PairFace &g = *faces_.numbered(other).face;
+          if (other >= face && (is_needed_[face] != 0 || is_needed_[other] != 0) &&
+              f.centre().distance(g.centre()) < 1 + f.radius() + g.radius())
+            result.push_back(other);
+        }
+        return result;
+      }
+
+      double integral(std::size_t face, unsigned int other, Workspace &work) const
+      {
+        const NumberedFace &f = faces_.numbered(face), &g = faces_.numbered(other);
+        if (!exact_)
+          return (*by_rule_)(*f.face, *g.face);
+        if (spacing_ > 0)
+          return repeated(f, g, work);
+        const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
+        ++work.use.n_pairs[integral.level];
+        work.use.error = std::max(work.use.error, integral.error);
+        return integral.value;
+      }
+
+      /// The same on a lattice.
+      double repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
+      {
+        const auto &x = f.face->vertices(), &y = g.face->vertices();
+        Places places{};
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          const auto place = [&](const Point<3> &vertex)
+          { return std::lround((vertex[d] - x[0][d]) / spacing_); };
+          for (unsigned int k = 0; k < 3; ++k)
+          {
+            places[3 * d + k] = place(x[k]);
+            places[9 + 3 * d + k] = place(y[k]);
+          }
+        }
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          if (const auto found = known_.find(places); found != known_.end())
+            return found->second;
+        }
+        const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
+        ++work.use.n_pairs[integral.level];
+        work.use.error = std::max(work.use.error, integral.error);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return known_[places] = integral.value;
+      }
+
+      /// Of unknowns j: Σ_G ∬_{F×G} Λ n_F·n_j(G), or -Σ_G J_j(G) ∬_{F×G} Ψ.
+      Row make_row(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
+      {
+        work.sums.resize(space_.n_dofs());
+        work.columns.clear();
+        for (const unsigned int other : near)
+        {
+          const double value = integral(face, other, work) * (other == face ? .5 : 1);
+          if (value == 0)
             continue;
-          const SpaceFace &g = faces_[other];
+          const SpaceFace &g = faces()[other];
           const double factor =
-              space_.is_continuous() ? -integral : integral * (faces_[face].normal * g.normal);
+              space_.is_continuous() ? -value : value * (faces()[face].normal * g.normal);
           for (const auto &[dof, jump] : g.jumps)
           {
             if (work.sums[dof] == 0)
@@ -96,44 +306,93 @@ namespace plumbline::reference
         Row row;
         for (const unsigned int dof : work.columns)
         {
-          if (work.sums[dof] != 0) // else it is listed twice, or all cancels
-            row.push_back({dof, work.sums[dof]});
+          if (work.sums[dof] != 0 && (is_needed_[face] != 0 || dof < n_rows_))
+            row.push_back({dof, work.sums[dof]}); // else it is listed twice, or all cancels
           work.sums[dof] = 0;
         }
         return row;
       }
 
-    private:
-      /// Fills scaled_.
-      std::vector<geometry::Cuboid> scale_faces(double horizon)
+      const TetrahedralSpace &space_;
+      std::size_t n_rows_;
+      SortedFaces faces_;
+      FacePotential::Kind kind_;
+      FacePotential potential_;
+      double spacing_; ///< [horizons]
+      std::optional<FacePairs> by_rule_;
+      std::optional<ExactPairs> exact_;
+      using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
+      mutable std::map<Places, double> known_;
+      mutable std::mutex mutex_;    ///< of what is known
+      std::vector<char> is_needed_; ///< faces that rows asked for have
+      geometry::BoxSearch<3> search_;
+    };
+
+    /// Of faces before `last`, what they add to the rows of unknowns.
+    class DofRows
+    {
+    public:
+      DofRows(const std::vector<SpaceFace> &faces, std::size_t n_dofs, std::size_t n_rows)
+          : n_rows_(n_rows), shares_(n_dofs), n_done_(n_dofs), rows_(n_dofs)
       {
-        const auto &vertices = space_.mesh().vertices;
-        std::vector<geometry::Cuboid> boxes;
-        for (const SpaceFace &face : faces_)
-        {
-          PairFace::Vertices x;
-          geometry::Cuboid box;
-          for (unsigned int k = 0; k < 3; ++k)
-          {
-            x[k] = Point<3>((vertices[face.vertices[k]] - vertices.front()) / horizon);
-            for (unsigned int d = 0; d < 3; ++d)
-            {
-              box.lower[d] = k == 0 ? x[k][d] : std::min(box.lower[d], x[k][d]);
-              box.upper[d] = k == 0 ? x[k][d] : std::max(box.upper[d], x[k][d]);
-            }
-          }
-          scaled_.emplace_back(x, face.vertices);
-          boxes.push_back(box);
-        }
-        return boxes;
+        for (std::size_t face = 0; face < faces.size(); ++face)
+          for (const auto &[dof, jump] : faces[face].jumps)
+            shares_[dof].push_back({face, jump});
       }
 
-      const TetrahedralSpace &space_;
-      std::vector<SpaceFace> faces_;
-      FacePotential potential_;
-      FacePairs pairs_;
-      std::vector<PairFace> scaled_; ///< the faces [horizons]
-      geometry::BoxSearch<3> search_;
+      /// @param of_faces  from `first` to before `last`
+      void add_faces(const std::vector<Row> &of_faces, std::size_t first, std::size_t last)
+      {
+        constexpr unsigned int grain = 64;
+        dealii::parallel::apply_to_subranges(
+            static_cast<std::size_t>(0), rows_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+              Row some;
+              for (std::size_t i = begin; i < end; ++i)
+                for (; n_done_[i] < shares_[i].size() && shares_[i][n_done_[i]].face < last;
+                     ++n_done_[i])
+                {
+                  const auto &[face, jump] = shares_[i][n_done_[i]];
+                  const Row &row = of_faces[face - first];
+                  some.clear();
+                  if (i >= n_rows_)
+                    for (std::size_t k = 0; k < row.size() && row[k].column < n_rows_; ++k)
+                      some.push_back(row[k]);
+                  add(rows_[i], jump, i < n_rows_ ? row : some);
+                }
+            },
+            grain);
+      }
+
+      /// The sum of it and its transpose.
+      std::vector<Row> symmetric()
+      {
+        std::vector<Row> transposed(n_rows_);
+        for (std::size_t row = 0; row < rows_.size(); ++row)
+          for (const auto &[column, value] : rows_[row])
+            if (column < n_rows_)
+              transposed[column].push_back({static_cast<unsigned int>(row), value});
+        rows_.resize(n_rows_);
+        for (std::size_t row = 0; row < n_rows_; ++row)
+        {
+          add(rows_[row], 1, transposed[row]);
+          transposed[row] = {};
+        }
+        return std::move(rows_);
+      }
+
+    private:
+      struct Share
+      {
+        std::size_t face = 0;
+        double jump = 0;
+      };
+
+      std::size_t n_rows_;
+      std::vector<std::vector<Share>> shares_; ///< faces ascending
+      std::vector<std::size_t> n_done_;        ///< of each unknown's shares
+      std::vector<Row> rows_;                  ///< beyond n_rows only columns before it
     };
 
     /// rows += factor × ∫∇φ_i·∇φ_j.
@@ -158,6 +417,25 @@ namespace plumbline::reference
       }
     }
 
+    double largest_jump_square(const std::vector<SpaceFace> &faces)
+    {
+      double largest = 0;
+      for (const SpaceFace &face : faces)
+        for (const SpaceFace::Jump &jump : face.jumps)
+          largest = std::max(largest, jump.value * jump.value);
+      return largest;
+    }
+
+    double least_diagonal(const std::vector<Row> &rows)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t row = 0; row < rows.size(); ++row)
+        for (const Entry &entry : rows[row])
+          if (entry.column == row)
+            least = std::min(least, entry.value);
+      return least;
+    }
+
     algebra::CsrMatrix to_matrix(const std::vector<Row> &rows, double factor)
     {
       algebra::CsrMatrix matrix;
@@ -177,64 +455,49 @@ namespace plumbline::reference
 
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,
                                        const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                       unsigned int refinement)
+                                       const FaceRule &rule, FaceRuleUse *use)
   {
-    const FaceRows of_face(space, kernel, refinement);
+    const FaceRows of_face(space, kernel, n_rows, rule);
     const double horizon = kernel.horizon();
-    struct Share
+    const std::vector<std::size_t> &blocks = of_face.blocks();
+    DofRows sums(of_face.faces(), space.n_dofs(), n_rows);
+    std::mutex mutex;
+    FaceRuleUse total;
+    constexpr std::size_t n_at_once = 2048; // some 15 MB of rows of faces
+    std::vector<Row> of_faces;
+    for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
     {
-      std::size_t face = 0;
-      double jump = 0;
-    };
-    std::vector<std::vector<Share>> shares(n_rows); // of the rows, faces ascending
-    std::vector<std::size_t> needed;
-    for (std::size_t face = 0; face < of_face.faces().size(); ++face)
-    {
-      bool is_needed = false;
-      for (const auto &[dof, jump] : of_face.faces()[face].jumps)
-        if (dof < n_rows)
-        {
-          shares[dof].push_back({needed.size(), jump});
-          is_needed = true;
-        }
-      if (is_needed)
-        needed.push_back(face);
-    }
-
-    std::vector<Row> rows(n_rows), of_faces;
-    std::vector<std::size_t> n_done(n_rows); // of each row's shares
-    constexpr std::size_t n_at_once = 2048;  // some 30 MB of rows of faces
-    constexpr unsigned int grain = 16;
-    for (std::size_t first = 0; first < needed.size(); first += n_at_once)
-    {
-      const std::size_t last = std::min(needed.size(), first + n_at_once);
-      of_faces.assign(last - first, {});
+      while (last + 1 < blocks.size() &&
+             (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
+        ++last;
+      of_faces.assign(blocks[last] - blocks[first], {});
       dealii::parallel::apply_to_subranges(
           first, last,
           [&](std::size_t begin, std::size_t end)
           {
             FaceRows::Workspace work;
-            for (std::size_t k = begin; k < end; ++k)
-              of_faces[k - first] = of_face(needed[k], work);
+            for (std::size_t block = begin; block < end; ++block)
+              of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
+            const std::lock_guard<std::mutex> lock(mutex);
+            for (unsigned int level = 0; level < 3; ++level)
+              total.n_pairs[level] += work.use.n_pairs[level];
+            total.error = std::max(total.error, work.use.error);
           },
-          grain);
-      dealii::parallel::apply_to_subranges(
-          static_cast<std::size_t>(0), n_rows,
-          [&](std::size_t begin, std::size_t end)
-          {
-            for (std::size_t i = begin; i < end; ++i)
-              for (; n_done[i] < shares[i].size() && shares[i][n_done[i]].face < last; ++n_done[i])
-                add(rows[i], shares[i][n_done[i]].jump,
-                    of_faces[shares[i][n_done[i]].face - first]);
-          },
-          grain);
+          1);
+      sums.add_faces(of_faces, blocks[first], blocks[last]);
     }
+    std::vector<Row> rows = sums.symmetric();
     // lengths of ∬γ in horizons: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
     double unit = kernel.constant() * std::pow(horizon, 6);
     if (space.is_continuous())
     {
       unit *= horizon * horizon;
       add_local(space, of_face.diffusion() / std::pow(horizon, 3), rows);
+    }
+    if (use != nullptr)
+    {
+      *use = total;
+      use->error *= largest_jump_square(of_face.faces()) / least_diagonal(rows);
     }
     return to_matrix(rows, unit);
   }

@@ -6,16 +6,48 @@
 
 namespace plumbline::reference
 {
+  /// How integrals over pairs of faces are made.
+  struct FaceRule
+  {
+    static FaceRule exact() { return {}; } ///< see ExactPairs
+    static FaceRule quadrature(unsigned int refinement)
+    {
+      FaceRule rule;
+      rule.is_exact = false;
+      rule.refinement = refinement;
+      return rule;
+    }
+
+    bool is_exact = true;
+    /// What a pair's round-off may be, relative to m₀ times a volume, which is like the diagonal:
+    /// thousands of pairs, whose round-off is random, add up to an entry.
+    double tolerance = 8e-15;
+    unsigned int refinement = 0; ///< of the quadrature
+    /// Vertices are a lattice's, with this spacing [length], and pairs of faces that are
+    /// translations of each other are integrated once; 0: they are not.
+    double spacing = 0;
+  };
+
+  /// How they were made, exactly.
+  struct FaceRuleUse
+  {
+    /// Pairs of faces in double, in long double and with 113 bits.
+    std::array<std::size_t, 3> n_pairs{};
+    /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
+    /// diagonal entry.
+    double error = 0;
+  };
+
   /// Rows ½∬C(x - y) (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) of unknowns i = 0 ... n_rows - 1 by all
-  /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Integrals
-  /// over pairs of faces are by quadrature, all else is exact, so that rows annihilate constants,
-  /// and those of continuous functions linear fields, to round-off.
-  /// @param refinement  of the quadrature, see FacePairs
+  /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Entries are
+  /// exact to round-off, or up to the quadrature over pairs of faces; all else is exact, so that
+  /// rows annihilate constants, and those of continuous functions linear fields, to round-off.
+  /// Symmetric to the last bit.
   /// @pre  rows of unknowns whose supports are a horizon or more from the outside of the mesh; a
   /// kernel that FacePotential takes
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,
                                        const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                       unsigned int refinement);
+                                       const FaceRule &rule, FaceRuleUse *use = nullptr);
 
   /// The largest difference of two entries in rows that both have, relative to the largest entry
   /// there.

@@ -148,7 +148,10 @@ namespace plumbline::reference
         if (is_of_cubes_)
         {
           const auto rows = [&](unsigned int refinement)
-          { return RepeatedRows(problem.kernel, problem.h(), is_continuous, refinement); };
+          {
+            return RepeatedRows(problem.kernel, problem.h(), is_continuous,
+                                FaceRule::quadrature(refinement));
+          };
           const RepeatedRows fine = rows(1);
           matrix = fine.on(*space_, lattice_);
           error = fine.difference(rows(0));
@@ -157,8 +160,9 @@ namespace plumbline::reference
         else
         {
           constexpr std::size_t n_sampled = 4;
-          const auto rows = [&](std::size_t n, unsigned int refinement)
-          { return assemble_by_faces(*space_, problem.kernel, n, refinement); };
+          const auto rows = [&](std::size_t n, unsigned int refinement) {
+            return assemble_by_faces(*space_, problem.kernel, n, FaceRule::quadrature(refinement));
+          };
           matrix = rows(n_unknowns(), 0);
           error = difference(rows(std::min(n_sampled, n_unknowns()), 1), matrix);
           change = "a finer rule changes a sample of them by ";

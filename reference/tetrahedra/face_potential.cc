@@ -11,7 +11,7 @@ namespace plumbline::reference
     constexpr int lowest_exponent = -1;
 
     /// ∫_0^end t^n γ dt, of γ = a t^k. @pre n + k > -1
-    double moment(const physics::PowerTerm &term, int n, double end)
+    double moment(const PotentialTerms::Term &term, int n, double end)
     {
       const int p = term.exponent + n + 1;
       return term.coefficient * std::pow(end, p) / p;
@@ -32,14 +32,13 @@ namespace plumbline::reference
     // ∫_0^r t γ (r - t)^n / n! dt = a r^(k+n+2) / ((k+2) ... (k+n+2)) for γ = a t^k.
     const int n = kind == Kind::harmonic ? 1 : 3;
     constexpr double share_of_second_moment = 2 * M_PI / 3;
-    for (const auto &[end, profile] : kernel.profile().parts())
+    for (const auto &[end, powers] : terms(kernel))
     {
       Part part;
       part.end = end;
-      for (physics::PowerTerm term : profile.powers())
+      for (const PotentialTerms::Term &term : powers)
       {
-        term.coefficient /= std::pow(end, term.exponent); // of t / end
-        double binomial = 1;                              // 1 / (j! (n - j)!)
+        double binomial = 1; // 1 / (j! (n - j)!)
         for (int j = 2; j <= n; ++j)
           binomial /= j;
         for (int j = 0; j <= n; ++j)
@@ -59,6 +58,20 @@ namespace plumbline::reference
       }
       parts_.push_back(std::move(part));
     }
+  }
+
+  std::vector<PotentialTerms> FacePotential::terms(const physics::Kernel<3> &kernel)
+  {
+    std::vector<PotentialTerms> result;
+    for (const auto &[end, profile] : kernel.profile().parts())
+    {
+      PotentialTerms part;
+      part.end = end;
+      for (const auto &[coefficient, exponent] : profile.powers())
+        part.terms.push_back({coefficient / std::pow(end, exponent), exponent}); // of t / end
+      result.push_back(part);
+    }
+    return result;
   }
 
   double FacePotential::sum(const double *squares, const double *weights, unsigned int n) const

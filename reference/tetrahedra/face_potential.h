@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/kernel.h"
+#include "reference/tetrahedra/plane_functions.h"
 
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ namespace plumbline::reference
 
     /// Why there is no such function of a kernel, and the remedy; empty: there is.
     static std::string refuse(const physics::Kernel<3> &kernel);
+
+    /// The profile by its terms; several parts of a table, which add up. [horizons]
+    /// @pre  refuse() is empty
+    static std::vector<PotentialTerms> terms(const physics::Kernel<3> &kernel);
 
     /// At most as many points as one call of sum() or sum_of_rays() takes.
     static constexpr unsigned int most_points = 64;

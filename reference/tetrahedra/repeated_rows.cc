@@ -1,7 +1,5 @@
 #include "reference/tetrahedra/repeated_rows.h"
 
-#include "reference/tetrahedra/assembly.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -42,7 +40,7 @@ namespace plumbline::reference
   } // namespace
 
   RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
-                             unsigned int refinement)
+                             const FaceRule &rule, FaceRuleUse *use)
       : is_continuous_(is_continuous), n_layers_(geometry::layers_within(kernel.horizon(), h))
   {
     const double side = is_continuous ? 2 * h : h; // with one free vertex, or six free cells
@@ -53,8 +51,10 @@ namespace plumbline::reference
         is_continuous);
     const Places places(lattice, n_layers_, is_continuous);
     const int own = n_layers_ + (is_continuous ? 1 : 0);
+    FaceRule of_lattice = rule;
+    of_lattice.spacing = h;
     const algebra::CsrMatrix matrix =
-        assemble_by_faces(space, kernel, places.n_types(), refinement);
+        assemble_by_faces(space, kernel, places.n_types(), of_lattice, use);
 
     std::vector<Entry> of_dof(space.n_dofs());
     geometry::for_each_index({0, 0, 0}, places.n(),
@@ -70,6 +70,22 @@ namespace plumbline::reference
       {
         rows_[of_dof[row].type].push_back(of_dof[matrix.column[k]]);
         rows_[of_dof[row].type].back().value = matrix.value[k];
+      }
+    make_symmetric();
+  }
+
+  void RepeatedRows::make_symmetric()
+  {
+    // the entry of unknowns i and j is found from both
+    std::map<std::tuple<std::size_t, Position, std::size_t>, double> values;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      for (const auto &[offset, type, value] : rows_[row])
+        values[{row, offset, type}] = value;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      for (auto &[offset, type, value] : rows_[row])
+      {
+        const auto found = values.find({type, {-offset[0], -offset[1], -offset[2]}, row});
+        value = .5 * (value + (found == values.end() ? 0 : found->second));
       }
   }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "algebra/csr_matrix.h"
-#include "physics/kernel.h"
-#include "reference/tetrahedra/space.h"
+#include "reference/tetrahedra/assembly.h"
 
 namespace plumbline::reference
 {
@@ -12,9 +10,9 @@ namespace plumbline::reference
   class RepeatedRows
   {
   public:
-    /// @param refinement  see FacePairs
+    /// Symmetric to the last bit.
     RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
-                 unsigned int refinement);
+                 const FaceRule &rule, FaceRuleUse *use = nullptr);
 
     /// Those of the free unknowns.
     /// @param space  on geometry::six_per_cube(lattice, layers_within(horizon, h)), of the same
@@ -33,6 +31,8 @@ namespace plumbline::reference
       std::size_t type = 0; ///< of a cube's cell
       double value = 0;
     };
+
+    void make_symmetric();
 
     bool is_continuous_;
     int n_layers_;

@@ -136,7 +136,8 @@ TEST(TetrahedralEntries, annihilate_linear_fields_whatever_the_quadrature)
   {
     const double horizon = 1.3;
     const TetrahedralSpace space(moved_mesh(3, .2), true);
-    const auto row = first_row(assemble_by_faces(space, kernel_of(type, horizon), 1, 0));
+    const auto row =
+        first_row(assemble_by_faces(space, kernel_of(type, horizon), 1, FaceRule::quadrature(0)));
     double sum = 0;
     dealii::Tensor<1, 3> first;
     for (const auto &[column, value] : row)
@@ -155,7 +156,8 @@ TEST(TetrahedralEntries, have_the_second_moments_of_the_local_limit_on_lattices)
   const auto lattice = cubes(2 * h, h);
   const TetrahedralSpace space(std::make_shared<const TetrahedralMesh>(six_per_cube(lattice, 3)),
                                true);
-  const auto row = first_row(assemble_by_faces(space, kernel_of("linear-decay", horizon), 1, 0));
+  const auto row = first_row(
+      assemble_by_faces(space, kernel_of("linear-decay", horizon), 1, FaceRule::quadrature(0)));
   dealii::SymmetricTensor<2, 3> second;
   for (const auto &[column, value] : row)
   {
@@ -172,8 +174,8 @@ TEST(TetrahedralEntries, are_those_of_nested_quadrature)
   for (const bool is_continuous : {true, false})
   {
     const TetrahedralSpace space(moved_mesh(3, .2), is_continuous);
-    const auto coarse = first_row(assemble_by_faces(space, kernel, 1, 0)),
-               row = first_row(assemble_by_faces(space, kernel, 1, 2));
+    const auto coarse = first_row(assemble_by_faces(space, kernel, 1, FaceRule::quadrature(0))),
+               row = first_row(assemble_by_faces(space, kernel, 1, FaceRule::quadrature(2)));
     unsigned int n_compared = 0;
     double worst = 0, worst_coarse = 0;
     for (const auto &[column, value] : row)
@@ -203,7 +205,7 @@ TEST(TetrahedralEntries, of_the_cells_of_cubes_add_up_to_exact_ones_of_cubes)
     double before = 1;
     for (const unsigned int refinement : {0u, 2u})
     {
-      const auto matrix = assemble_by_faces(space, kernel, 6, refinement);
+      const auto matrix = assemble_by_faces(space, kernel, 6, FaceRule::quadrature(refinement));
       std::map<std::array<int, 3>, double> sums;
       for (std::size_t k = 0; k < matrix.start[6]; ++k)
       {
@@ -229,8 +231,8 @@ TEST(TetrahedralEntries, of_kernels_with_breaks_and_of_polynomials_are_sums)
   const TetrahedralSpace space(moved_mesh(3, .1), true);
   const auto row = [&](const physics::RadialProfile &profile)
   {
-    return first_row(
-        assemble_by_faces(space, {physics::Structure::scalar, profile, horizon, 1}, 1, 0));
+    return first_row(assemble_by_faces(space, {physics::Structure::scalar, profile, horizon, 1}, 1,
+                                       FaceRule::quadrature(0)));
   };
   // 1 - t as a table, and as powers; constant up to 1/2
   const auto decay = row({{1, 0}, {-1, 1}}),
@@ -255,11 +257,11 @@ TEST(TetrahedralEntries, on_lattices_are_repeated)
     const TetrahedralSpace space(std::make_shared<const TetrahedralMesh>(
                                      six_per_cube(lattice, layers_within(horizon, lattice.h()))),
                                  is_continuous);
-    const RepeatedRows rows(kernel, lattice.h(), is_continuous, 0);
+    const RepeatedRows rows(kernel, lattice.h(), is_continuous, FaceRule::quadrature(0));
     const auto repeated = rows.on(space, lattice);
     ASSERT_EQ(repeated.n_rows(), space.n_free());
     const std::size_t n_rows = is_continuous ? space.n_free() : 6;
-    const auto all = assemble_by_faces(space, kernel, n_rows, 0);
+    const auto all = assemble_by_faces(space, kernel, n_rows, FaceRule::quadrature(0));
     double worst = 0, largest = 0;
     for (std::size_t row = 0; row < n_rows; ++row)
     {
@@ -274,7 +276,9 @@ TEST(TetrahedralEntries, on_lattices_are_repeated)
     }
     EXPECT_LT(worst, 1e-12 * largest);
     EXPECT_EQ(rows.difference(rows), 0);
-    EXPECT_GT(rows.difference(RepeatedRows(kernel, lattice.h(), is_continuous, 1)), 1e-7);
+    EXPECT_GT(
+        rows.difference(RepeatedRows(kernel, lattice.h(), is_continuous, FaceRule::quadrature(1))),
+        1e-7);
   }
 }
 

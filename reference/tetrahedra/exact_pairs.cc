@@ -1,0 +1,264 @@
+#include "reference/tetrahedra/exact_pairs.h"
+
+#include "reference/tetrahedra/pair_form.h"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <cstdint>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    namespace multiprecision = boost::multiprecision;
+    using Quad =
+        multiprecision::number<multiprecision::cpp_bin_float<113, multiprecision::digit_base_2>,
+                               multiprecision::et_off>;
+
+    /// Heights of an edge over a plane that differ by less are equal; coordinates of some horizons
+    /// are rounded by that much. What is larger is in reach of 113 bits.
+    constexpr double rounding = 2e-14;
+    /// Faces nearer than this [horizons] take functions that are regular at 0.
+    constexpr double compact_from = .1;
+
+    template <class Real>
+    FormFace<Real> form_face(const PairFace &face)
+    {
+      FormFace<Real> result;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto &x = face.vertices()[k];
+        result.x[k] = {Real(x[0]), Real(x[1]), Real(x[2])};
+      }
+      result.names = face.names();
+      return result;
+    }
+
+    double gap(const PairFace &f, const PairFace &g)
+    {
+      return f.centre().distance(g.centre()) - f.radius() - g.radius();
+    }
+
+    struct NothingShared
+    {
+      template <class Make>
+      auto edges(unsigned int, unsigned int, bool, const Make &make) const
+      {
+        return make();
+      }
+      template <class Make>
+      auto first_vertex(unsigned int, unsigned int, bool, const Make &make) const
+      {
+        return make();
+      }
+      template <class Make>
+      auto second_vertex(unsigned int, bool, const Make &make) const
+      {
+        return make();
+      }
+    };
+
+    template <class Real>
+    Sum<Real> integrate(const std::vector<PotentialPart<Real>> &parts, const PairFace &f,
+                        const PairFace &g)
+    {
+      NothingShared nothing;
+      PairForm<Real, NothingShared> form(parts, gap(f, g) > compact_from, nothing);
+      return form(form_face<Real>(f), form_face<Real>(g), rounding);
+    }
+
+    template <class Real>
+    std::vector<PotentialPart<Real>> make_parts(const std::vector<PotentialTerms> &terms, int order)
+    {
+      std::vector<PotentialPart<Real>> parts;
+      for (const PotentialTerms &part : terms)
+        parts.emplace_back(part, order);
+      return parts;
+    }
+  } // namespace
+
+  struct ExactPairs::Parts
+  {
+    std::vector<PotentialPart<double>> usual;
+    std::vector<PotentialPart<long double>> longer;
+    std::vector<PotentialPart<Quad>> quad;
+  };
+
+  /// Rows of a table for what belongs to the first faces, columns for all.
+  struct ExactPairs::Shared::Tables
+  {
+    enum class State : std::uint8_t
+    {
+      unknown,
+      regular,
+      compact
+    };
+    struct Slot
+    {
+      double value = 0;
+      float size = 0;
+      State state = State::unknown;
+    };
+    /// Numbers of things counted anew, in the order in which they are met.
+    struct Places
+    {
+      std::vector<unsigned int> place, met; ///< place + 1, or 0
+
+      void clear()
+      {
+        for (const unsigned int number : met)
+          place[number] = 0;
+        met.clear();
+      }
+      void add(unsigned int number)
+      {
+        if (place.size() <= number)
+          place.resize(number + number / 2 + 1);
+        if (place[number] == 0)
+        {
+          met.push_back(number);
+          place[number] = static_cast<unsigned int>(met.size());
+        }
+      }
+      std::size_t operator[](unsigned int number) const { return place[number] - 1; }
+      std::size_t size() const { return met.size(); }
+    };
+
+    template <class Make>
+    static Sum<double> take(Slot &slot, bool is_compact, const Make &make)
+    {
+      const State state = is_compact ? State::compact : State::regular;
+      if (slot.state != state)
+      {
+        const Sum<double> made = make();
+        slot = {made.value, static_cast<float>(made.size), state};
+      }
+      return {slot.value, slot.size};
+    }
+
+    template <class Make>
+    Sum<double> edges(unsigned int e, unsigned int f, bool is_compact, const Make &make)
+    {
+      return take(of_edges[edge_rows[e] * edge_columns.size() + edge_columns[f]], is_compact, make);
+    }
+    template <class Make>
+    Sum<double> first_vertex(unsigned int v, unsigned int face, bool is_compact, const Make &make)
+    {
+      return take(of_vertices[vertex_rows[v] * faces.size() + faces[face]], is_compact, make);
+    }
+    template <class Make>
+    Sum<double> second_vertex(unsigned int v, bool is_compact, const Make &make)
+    {
+      return take(of_face[vertices[v]], is_compact, make);
+    }
+
+    Places edge_rows, edge_columns, vertex_rows, vertices, faces;
+    std::vector<Slot> of_edges, of_vertices, of_face;
+    const NumberedFace *face = nullptr; ///< that of_face is of
+  };
+
+  ExactPairs::Shared::Shared() : tables_(std::make_unique<Tables>()) {}
+  ExactPairs::Shared::~Shared() = default;
+  ExactPairs::Shared::Shared(Shared &&) noexcept = default;
+
+  void ExactPairs::Shared::start(const std::vector<const NumberedFace *> &first,
+                                 const std::vector<const NumberedFace *> &second)
+  {
+    Tables &t = *tables_;
+    for (Tables::Places *places :
+         {&t.edge_rows, &t.edge_columns, &t.vertex_rows, &t.vertices, &t.faces})
+      places->clear();
+    for (const NumberedFace *face : first)
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        t.edge_rows.add(face->edges[k]);
+        t.vertex_rows.add(face->face->names()[k]);
+      }
+    for (const NumberedFace *face : second)
+    {
+      t.faces.add(face->number);
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        t.edge_columns.add(face->edges[k]);
+        t.vertices.add(face->face->names()[k]);
+      }
+    }
+    t.of_edges.assign(t.edge_rows.size() * t.edge_columns.size(), {});
+    t.of_vertices.assign(t.vertex_rows.size() * t.faces.size(), {});
+    t.face = nullptr;
+  }
+
+  ExactPairs::ExactPairs(const physics::Kernel<3> &kernel, FacePotential::Kind kind,
+                         double tolerance)
+      : tolerance_(tolerance)
+  {
+    const auto terms = FacePotential::terms(kernel);
+    const int order = kind == FacePotential::Kind::harmonic ? 1 : 3;
+    parts_ = std::make_unique<const Parts>(Parts{make_parts<double>(terms, order),
+                                                 make_parts<long double>(terms, order),
+                                                 make_parts<Quad>(terms, order)});
+  }
+
+  ExactPairs::~ExactPairs() = default;
+
+  namespace
+  {
+    /// Of the round-off unit times the sum of terms' sizes. Measured on random pairs: at most 10 of
+    /// those whose round-off matters.
+    constexpr double safety = 16;
+
+    template <class Real>
+    double bound(const Sum<Real> &sum)
+    {
+      return static_cast<double>(safety * std::numeric_limits<Real>::epsilon() * sum.size);
+    }
+  } // namespace
+
+  ExactPairs::Integral ExactPairs::operator()(const NumberedFace &f, const NumberedFace &g,
+                                              Shared &shared) const
+  {
+    const double distance = gap(*f.face, *g.face);
+    if (distance >= 1)
+      return {};
+    Shared::Tables &tables = *shared.tables_;
+    if (tables.face != &f)
+    {
+      tables.face = &f;
+      tables.of_face.assign(tables.vertices.size(), {});
+    }
+    FormFace<double> x = form_face<double>(*f.face), y = form_face<double>(*g.face);
+    x.edges = f.edges;
+    y.edges = g.edges;
+    x.number = f.number;
+    y.number = g.number;
+    PairForm<double, Shared::Tables> form(parts_->usual, distance > compact_from, tables);
+    const Sum<double> sum = form(x, y, rounding);
+    if (const double error = bound(sum); error <= tolerance_)
+      return {sum.value, error, 0};
+    return refined(*f.face, *g.face);
+  }
+
+  ExactPairs::Integral ExactPairs::refined(const PairFace &f, const PairFace &g) const
+  {
+    const Sum<long double> sum = integrate(parts_->longer, f, g);
+    if (const double error = bound(sum); error <= tolerance_)
+      return {static_cast<double>(sum.value), error, 1};
+    const Sum<Quad> precise = integrate(parts_->quad, f, g);
+    return {static_cast<double>(precise.value), bound(precise), 2};
+  }
+
+  ExactPairs::Integral ExactPairs::operator()(const PairFace &f, const PairFace &g) const
+  {
+    if (gap(f, g) >= 1)
+      return {};
+    const Sum<double> sum = integrate(parts_->usual, f, g);
+    if (const double error = bound(sum); error <= tolerance_)
+      return {sum.value, error, 0};
+    return refined(f, g);
+  }
+
+  double ExactPairs::precise(const PairFace &f, const PairFace &g) const
+  {
+    return static_cast<double>(integrate(parts_->quad, f, g).value);
+  }
+} // namespace plumbline::reference

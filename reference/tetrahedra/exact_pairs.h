@@ -1,0 +1,71 @@
+#pragma once
+
+#include "reference/tetrahedra/face_pairs.h"
+
+#include <memory>
+
+namespace plumbline::reference
+{
+  /// A triangle among many, with the numbers that shared values are found by.
+  struct NumberedFace
+  {
+    const PairFace *face = nullptr;
+    std::array<unsigned int, 3> edges{}; ///< from vertex k to vertex k + 1
+    unsigned int number = 0;
+  };
+
+  /// ∬_{F×G} f(|x - y|) of a FacePotential f in closed form but for integrals along lines, which
+  /// Gauss rules give to round-off: see PairForm. Each sum carries a bound of its round-off. Where
+  /// that exceeds a tolerance, since edges are nearly parallel to the other plane, the same is done
+  /// in long double, and then with 113 bits. Exactly parallel edges and planes have a form of their
+  /// own.
+  class ExactPairs
+  {
+  public:
+    /// @param kernel  one that FacePotential takes
+    /// @param tolerance  of one integral's round-off [1]
+    ExactPairs(const physics::Kernel<3> &kernel, FacePotential::Kind kind, double tolerance);
+    ~ExactPairs();
+
+    struct Integral
+    {
+      double value = 0;
+      double error = 0;       ///< a bound in practice of its round-off
+      unsigned int level = 0; ///< 0: double, 1: long double, 2: 113 bits
+    };
+
+    /// Values that pairs share for the same two edges, or a vertex and a face. Not thread safe.
+    class Shared
+    {
+    public:
+      Shared();
+      ~Shared();
+      Shared(Shared &&) noexcept;
+
+      /// For pairs of some faces, the first of each pair, with others.
+      void start(const std::vector<const NumberedFace *> &first,
+                 const std::vector<const NumberedFace *> &second);
+
+    private:
+      friend class ExactPairs;
+      struct Tables;
+      std::unique_ptr<Tables> tables_;
+    };
+
+    /// @param f, g  of those that `shared` was started with; it forgets some values as f changes
+    Integral operator()(const NumberedFace &f, const NumberedFace &g, Shared &shared) const;
+
+    /// Without shared values.
+    Integral operator()(const PairFace &f, const PairFace &g) const;
+
+    /// With 113 bits.
+    double precise(const PairFace &f, const PairFace &g) const;
+
+  private:
+    Integral refined(const PairFace &f, const PairFace &g) const; ///< with more digits
+
+    struct Parts;
+    std::unique_ptr<const Parts> parts_;
+    double tolerance_;
+  };
+} // namespace plumbline::reference
