@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "certified_set.h"
 #include "io/certificate_json.h"
 #include "methods.h"
 #include "output_folder.h"
@@ -191,6 +192,24 @@ namespace plumbline::app
       throw NumericalError("nothing is certified: " + reason);
     }
 
+    /// A certificate of no digits says nothing.
+    void require_digits(const Certificate &certificate)
+    {
+      const auto require =
+          [&](unsigned int digits, const std::string &method, const std::string &remedy)
+      {
+        if (digits == 0)
+          throw NumericalError("nothing is certified: the bound of " + method +
+                               " leaves not one digit certain at some points, relative to the "
+                               "root mean square of u, " +
+                               text(certificate.size) + "; " + remedy);
+      };
+      require(certificate.least_digits(), certificate.galerkin.method,
+              "give a finer mesh (--reference-level, Study/h) or a higher degree");
+      require(certificate.confirmed_digits(), certificate.meshfree.method,
+              "give finer levels (Study/h) or another rule");
+    }
+
     scene::Scene read_certifiable(const CertifyOptions &options)
     {
       scene::Scene scene = study::with_names_of(
@@ -227,6 +246,26 @@ namespace plumbline::app
       of_rule.reference.estimate = scene::Estimate::none;
       study::check_memory(of_rule, {rule}, methods, 0);
       return level - 1;
+    }
+
+    /// @throws InputError      a point is there twice
+    /// @throws NumericalError  nothing is certified
+    void check_result(const Certificate &certificate, bool is_first)
+    {
+      const study::CertifiedPlaces places(certificate);
+      for (std::size_t i = 0; i < certificate.points.size(); ++i)
+        if (const auto &x = certificate.points[i].x; places.find(x) != i)
+          throw InputError("Output/points: " + place_text(x) + " is there twice; leave one out");
+      if (!(certificate.size > 0))
+        throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
+                             "to its size; give a load, or other points");
+      const bool is_refused = !certificate.refused().empty();
+      if (is_first && (is_refused || certificate.least_digits() == 0 ||
+                       certificate.confirmed_digits() == 0))
+        std::cerr << report::to_text(table_of(certificate, true));
+      if (is_refused)
+        refuse(certificate);
+      require_digits(certificate);
     }
 
     void write(const Certificate &certificate, const fs::path &folder)
@@ -269,20 +308,7 @@ namespace plumbline::app
     progress.reset();
     certificate.hash = sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;
-    const study::CertifiedPlaces places(certificate);
-    for (std::size_t i = 0; i < certificate.points.size(); ++i)
-      if (const auto &x = certificate.points[i].x; places.find(x[0], x[1]) != i)
-        throw InputError("Output/points: (" + text(x[0]) + ", " + text(x[1]) +
-                         ") is there twice; leave one out");
-    if (!(certificate.size > 0))
-      throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative to "
-                           "its size; give a load, or other points");
-    if (!certificate.refused().empty())
-    {
-      if (is_first)
-        std::cerr << report::to_text(table_of(certificate, true));
-      refuse(certificate);
-    }
+    check_result(certificate, is_first);
     ranks.together(
         [&]
         {

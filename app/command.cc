@@ -337,9 +337,11 @@ namespace
     command
         .add_option("FILE", options->files,
                     "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
-                    "x,y,u1,u2 of a vector; a file for each grid")
-        ->required();
-    command.add_option("--problem", options->certificate, "certificate.json of 'certify'")
+                    "x,y,u1,u2 of a vector, in three dimensions x,y,z and u or u1,u2,u3; a file "
+                    "for each grid");
+    command.add_option("--problem", options->problem,
+                    "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "
+                    "certificate.json of 'certify'")
         ->required();
     command
         .add_option(sizes_option, options->h,
@@ -351,6 +353,9 @@ namespace
                     "digits=N, order=P, limit=certified, separated by commas: exit with 1 if one "
                     "does not hold on the finest grid")
         ->allow_extra_args(false);
+    command.add_flag("--points", options->is_points,
+                     "Print the points of the problem as CSV, for your code to read");
+    command.add_flag("--scene", options->is_scene, "Print the scene of the problem");
     command.add_flag("--quiet", options->quiet, "Print nothing but errors");
     set_action(command, request, options, grade);
   }
@@ -379,8 +384,8 @@ namespace
              "killed",
              "DIR", "Output folder of a run", rebuild_report);
     const auto as_matrix = std::make_shared<bool>(false);
-    add_word(app, request, "list", "List methods, models, analyses, kernels or scenes", "WHAT",
-             "methods, models, analyses, kernels or scenes",
+    add_word(app, request, "list", "List methods, models, analyses, kernels, scenes or certified problems",
+             "WHAT", "methods, models, analyses, kernels, scenes or problems",
              [=](const std::string &what)
              {
                plumbline::app::list(what, *as_matrix);
@@ -433,7 +438,8 @@ namespace
   void add_own(CLI::App &app, Request &request)
   {
     add_word(app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
-             "A command, methods, models, analyses, kernels, scenes, or a key as in describe",
+             "A command, methods, models, analyses, kernels, scenes, problems, or a key as in "
+             "describe",
              [&app](const std::string &topic) { return help(app, topic); });
     app.get_subcommand("help")->get_option("TOPIC")->required(false);
     add_word(app, request, "completion", "Print a script that completes commands and options",

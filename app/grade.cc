@@ -2,12 +2,10 @@
 
 #include "arguments.h"
 #include "base/choice.h"
-#include "base/csv.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "io/certificate_json.h"
+#include "certified_set.h"
 #include "report/text_table.h"
-#include "sha256.h"
 #include "study/grade.h"
 
 #include <algorithm>
@@ -56,57 +54,6 @@ namespace plumbline::app
     {
       constexpr int n_digits = 3;
       return std::isfinite(value) ? base::to_text(value, n_digits) : "–";
-    }
-
-    std::string place_text(const std::vector<double> &x)
-    {
-      constexpr int n_digits = 12;
-      return "(" + base::to_text(x[0], n_digits) + ", " + base::to_text(x[1], n_digits) + ")";
-    }
-
-    /// The columns of u in a file.
-    std::vector<std::string> columns_of(const std::string &file, unsigned int n_components)
-    {
-      if (n_components == 1)
-        return {"u"};
-      const base::Csv csv(file, {"x", "y"});
-      return csv.has("u1") ? std::vector<std::string>{"u1", "u2"}
-                           : std::vector<std::string>{"u", "v"};
-    }
-
-    study::GivenValues read_values(const std::string &file, const Certificate &certificate)
-    {
-      const unsigned int n = certificate.n_components;
-      const std::vector<std::string> columns = columns_of(file, n);
-      std::vector<std::string> all = {"x", "y"};
-      all.insert(all.end(), columns.begin(), columns.end());
-      base::Csv csv(file, all);
-      const study::CertifiedPlaces places(certificate);
-      study::GivenValues given{file, std::vector<double>(certificate.points.size() * n)};
-      std::vector<std::size_t> line(certificate.points.size());
-      while (csv.next())
-      {
-        const double x = csv.number("x"), y = csv.number("y");
-        const std::size_t i = places.find(x, y);
-        if (i == certificate.points.size())
-          csv.fail(place_text({x, y}) + " is no point of the certificate, within " +
-                   text(places.tolerance()) + "; take it out");
-        if (line[i] > 0)
-          csv.fail(place_text({x, y}) + " is in line " + std::to_string(line[i]) +
-                   ", too; take one out");
-        line[i] = csv.line();
-        for (unsigned int c = 0; c < n; ++c)
-          given.values[i * n + c] = csv.number(columns[c]);
-      }
-      std::string missing;
-      const auto n_missing = std::count(line.begin(), line.end(), std::size_t(0));
-      const auto first = std::find(line.begin(), line.end(), std::size_t(0));
-      if (n_missing > 0)
-        throw InputError("'" + file + "' lacks " + std::to_string(n_missing) + " of the " +
-                         std::to_string(line.size()) + " points of the certificate, e.g. " +
-                         place_text(certificate.points[first - line.begin()].x) +
-                         "; give a value at each of them");
-      return given;
     }
 
     /// Mesh sizes of the files; none: not given.
@@ -236,16 +183,30 @@ namespace plumbline::app
                   found.reason;
       return answer;
     }
+
+    /// The problem itself, for another code.
+    int show(const Certificate &certificate, const GradeOptions &options)
+    {
+      if (!options.files.empty() || options.is_points == options.is_scene)
+        throw InputError("grade: --points and --scene print the problem and grade nothing; give "
+                         "one of them, and no file");
+      if (options.is_scene)
+        std::cout << certificate.scene_text;
+      else
+        std::cout << points_csv(certificate);
+      return 0;
+    }
   } // namespace
 
   int grade(const GradeOptions &options)
   {
     const Required required = parse_required(options.required);
-    const Certificate certificate = io::read_certificate(options.certificate);
-    if (sha256(certificate.scene_text) != certificate.hash)
-      throw InputError("certificate '" + options.certificate +
-                       "': sha256 is not that of its scene_text, so one of them was changed; make "
-                       "it again by 'plumbline certify'");
+    const Certificate certificate = certificate_of(options.problem, prefix_of_command());
+    if (options.is_points || options.is_scene)
+      return show(certificate, options);
+    if (options.files.empty())
+      throw InputError("grade: no file of values is given; write plumbline grade FILE --problem " +
+                       options.problem + ", or --points for the points at which u is needed");
     std::vector<double> h = sizes_of(options);
     std::vector<study::GivenValues> given;
     for (const std::string &file : options.files)

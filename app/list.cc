@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/similar_words.h"
 #include "base/text_file.h"
+#include "certified_set.h"
 #include "methods.h"
 #include "physics/kernel.h"
 #include "scene/capabilities.h"
@@ -28,7 +29,8 @@ namespace plumbline::app
       models,
       analyses,
       kernels,
-      scenes
+      scenes,
+      problems
     };
   } // namespace
 } // namespace plumbline::app
@@ -37,7 +39,7 @@ namespace plumbline::base
 {
   template <>
   inline constexpr auto words<app::Listed> =
-      std::array{"methods", "models", "analyses", "kernels", "scenes"};
+      std::array{"methods", "models", "analyses", "kernels", "scenes", "problems"};
 } // namespace plumbline::base
 
 namespace plumbline::app
@@ -46,14 +48,6 @@ namespace plumbline::app
 
   namespace
   {
-    /// Beside an installed command, else those of the source tree.
-    fs::path scenes_folder()
-    {
-      const fs::path installed =
-          fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/plumbline/scenes";
-      return fs::is_directory(installed) ? installed : fs::path(PLUMBLINE_SCENES);
-    }
-
     /// Of a scene, or why it is refused: some are there to be.
     std::string purpose(const fs::path &file)
     {
@@ -83,7 +77,7 @@ namespace plumbline::app
 
     void list_scenes()
     {
-      const fs::path folder = scenes_folder();
+      const fs::path folder = scenes_folder(prefix_of_command());
       if (!fs::is_directory(folder))
         throw InputError("the scenes folder '" + folder.string() + "' is not there");
       std::set<fs::path> files;
@@ -92,6 +86,20 @@ namespace plumbline::app
           files.insert(entry.path());
       for (const fs::path &file : files)
         std::cout << file.string() << "\n    " << purpose(file) << '\n';
+    }
+
+    /// Those of the certified set.
+    void list_problems()
+    {
+      for (const std::string &name : certified_names(prefix_of_command()))
+      {
+        const study::Certificate certificate = certificate_of(name, prefix_of_command());
+        std::cout << certificate.purpose << "\n    " << certificate.points.size()
+                  << " points to at least " << certificate.least_digits() << " digits by "
+                  << certificate.galerkin.method << ", confirmed to "
+                  << certificate.confirmed_digits() << " by " << certificate.meshfree.method
+                  << '\n';
+      }
     }
   } // namespace
 
@@ -117,11 +125,13 @@ namespace plumbline::app
       list_kernels();
     else if (listed == Listed::scenes)
       list_scenes();
+    else if (listed == Listed::problems)
+      list_problems();
     else
       throw InputError(
           "list: '" + subject +
-          "' is not known; choose methods, models, analyses, kernels or "
-          "scenes" +
+          "' is not known; choose methods, models, analyses, kernels, scenes "
+          "or problems" +
           base::did_you_mean(subject, {base::words<Listed>.begin(), base::words<Listed>.end()}));
   }
 } // namespace plumbline::app

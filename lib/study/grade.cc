@@ -171,7 +171,7 @@ namespace plumbline::study
   CertifiedPlaces::CertifiedPlaces(const Certificate &certificate) : points_(certificate.points)
   {
     double largest = 0;
-    for (unsigned int d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < points_.front().x.size(); ++d)
     {
       const auto [least, most] =
           std::minmax_element(points_.begin(), points_.end(),
@@ -189,11 +189,15 @@ namespace plumbline::study
     return relative * extent_;
   }
 
-  std::size_t CertifiedPlaces::find(double x, double y) const
+  std::size_t CertifiedPlaces::find(const std::vector<double> &x) const
   {
     const auto found = std::find_if(points_.begin(), points_.end(),
-                                    [&](const CertifiedValue &one) {
-                                      return std::hypot(one.x[0] - x, one.x[1] - y) <= tolerance();
+                                    [&](const CertifiedValue &one)
+                                    {
+                                      double squares = 0;
+                                      for (std::size_t d = 0; d < x.size(); ++d)
+                                        squares += std::pow(one.x[d] - x[d], 2);
+                                      return std::sqrt(squares) <= tolerance();
                                     });
     return static_cast<std::size_t>(found - points_.begin());
   }

@@ -22,7 +22,7 @@ namespace plumbline::study
     double tolerance() const;
 
     /// The number of the point there; as many as there are points: none.
-    std::size_t find(double x, double y) const;
+    std::size_t find(const std::vector<double> &x) const;
 
   private:
     const std::vector<CertifiedValue> &points_;
