@@ -61,7 +61,8 @@ namespace plumbline::app
         list += (list.empty() ? "" : ", ") + name;
       }
       throw InputError("problem '" + problem + "' is not in the certified set; choose one of " +
-                       list + ", or the file certificate.json that 'plumbline certify' has written" +
+                       list +
+                       ", or the file certificate.json that 'plumbline certify' has written" +
                        base::did_you_mean(problem, names));
     }
 
@@ -199,8 +200,7 @@ namespace plumbline::app
         csv.fail(place_text(x) + " is no point of the certificate, within " +
                  base::to_text(places.tolerance(), n_digits) + "; take it out");
       if (lines[i] > 0)
-        csv.fail(place_text(x) + " is in line " + std::to_string(lines[i]) +
-                 ", too; take one out");
+        csv.fail(place_text(x) + " is in line " + std::to_string(lines[i]) + ", too; take one out");
       lines[i] = csv.line();
       for (unsigned int c = 0; c < n; ++c)
         given.values[i * n + c] = csv.number(columns[c]);

@@ -9,6 +9,7 @@
 #include "output_folder.h"
 #include "point_values.h"
 #include "report/text_table.h"
+#include "rules_table.h"
 #include "run_parts.h"
 #include "sha256.h"
 #include "study/certificate.h"
@@ -36,13 +37,15 @@ namespace plumbline::app
       return base::to_text(value, n_digits);
     }
 
-    /// The first meshfree rule that the scene names.
-    std::shared_ptr<const method::Method> rule_of(const scene::Scene &scene,
-                                                  const method::Methods &methods)
+    /// The meshfree rules that the scene names, of which the first one confirms.
+    method::Methods rules_of(const scene::Scene &scene, const method::Methods &methods)
     {
+      method::Methods rules;
       for (const auto &method : study::choose_methods(scene, methods))
         if (method->family() == method::MethodFamily::meshfree)
-          return method;
+          rules.push_back(method);
+      if (!rules.empty())
+        return rules;
       throw InputError("scene '" + scene.name +
                        "': Methods/names has no meshfree rule, by which values are confirmed; add "
                        "one, e.g. IPA-AC-R2");
@@ -68,6 +71,8 @@ namespace plumbline::app
       const auto name = [&](const std::string &word, unsigned int c)
       { return word + (certificate.n_components == 1 ? "" : std::to_string(c + 1)); };
       std::vector<report::Column> columns = {"x", "y"};
+      if (certificate.points.front().x.size() == 3)
+        columns.emplace_back("z");
       for (unsigned int c = 0; c < certificate.n_components; ++c)
         columns.emplace_back(name("u", c));
       columns.emplace_back("bound");
@@ -80,7 +85,7 @@ namespace plumbline::app
       return columns;
     }
 
-    std::vector<report::Cell> row_of(const CertifiedValue &one)
+    std::vector<report::Cell> row_of(const CertifiedValue &one, std::size_t dimension)
     {
       std::vector<report::Cell> row;
       for (const double x : one.x)
@@ -88,7 +93,7 @@ namespace plumbline::app
       if (one.x.empty())
       {
         row.push_back(report::text_cell("mean"));
-        row.push_back(report::empty_cell());
+        row.insert(row.end(), dimension - 1, report::empty_cell());
       }
       for (const double u : one.value)
         row.push_back(value_cell(u, one.bound));
@@ -104,10 +109,11 @@ namespace plumbline::app
     report::Table table_of(const Certificate &certificate, bool has_mean)
     {
       report::Table table{"", columns_of(certificate), {}};
+      const std::size_t dimension = certificate.points.front().x.size();
       for (const CertifiedValue &one : certificate.points)
-        table.rows.push_back(row_of(one));
+        table.rows.push_back(row_of(one, dimension));
       if (has_mean && certificate.mean)
-        table.rows.push_back(row_of(*certificate.mean));
+        table.rows.push_back(row_of(*certificate.mean, dimension));
       return table;
     }
 
@@ -147,7 +153,9 @@ namespace plumbline::app
              way_text(certificate.meshfree, "confirms") + "\n- horizon " +
              text(certificate.horizon) + "\n- plumbline " + certificate.version +
              "\n- SHA-256 of the scene's text: `" + certificate.hash + "`\n\n" +
-             report::to_markdown(table_of(certificate, true)) + "\n## Scene\n\n```\n" +
+             report::to_markdown(table_of(certificate, true)) +
+             "\n## Meshfree rules at these points\n\n" +
+             report::to_markdown(table_of_rules(certificate)) + "\n## Scene\n\n```\n" +
              certificate.scene_text + "```\n";
     }
 
@@ -233,7 +241,7 @@ namespace plumbline::app
     std::size_t reference_level(const CertifyOptions &options, const scene::Scene &scene,
                                 const method::Methods &methods,
                                 const std::shared_ptr<const method::Method> &reference,
-                                const std::shared_ptr<const method::Method> &rule)
+                                const method::Methods &rules)
     {
       const auto n_levels = static_cast<unsigned int>(scene.study.series.front().levels.size());
       const unsigned int level = options.reference_level == 0 ? n_levels : options.reference_level;
@@ -244,7 +252,7 @@ namespace plumbline::app
       scene::Scene of_rule = scene; // that has no reference at its finer levels
       of_rule.reference.method.reset();
       of_rule.reference.estimate = scene::Estimate::none;
-      study::check_memory(of_rule, {rule}, methods, 0);
+      study::check_memory(of_rule, rules, methods, 0);
       return level - 1;
     }
 
@@ -260,8 +268,8 @@ namespace plumbline::app
         throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
                              "to its size; give a load, or other points");
       const bool is_refused = !certificate.refused().empty();
-      if (is_first && (is_refused || certificate.least_digits() == 0 ||
-                       certificate.confirmed_digits() == 0))
+      if (is_first &&
+          (is_refused || certificate.least_digits() == 0 || certificate.confirmed_digits() == 0))
         std::cerr << report::to_text(table_of(certificate, true));
       if (is_refused)
         refuse(certificate);
@@ -294,8 +302,9 @@ namespace plumbline::app
     const scene::Scene scene = read_certifiable(options);
     const PointValues points(scene);
     const method::Methods methods = all_methods();
-    const auto reference = reference_of(scene, methods), rule = rule_of(scene, methods);
-    const std::size_t level = reference_level(options, scene, methods, reference, rule);
+    const auto reference = reference_of(scene, methods);
+    const method::Methods rules = rules_of(scene, methods);
+    const std::size_t level = reference_level(options, scene, methods, reference, rules);
     study::check_data(scene);
     const fs::path folder =
         options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
@@ -303,8 +312,11 @@ namespace plumbline::app
     std::optional<ProgressLine> progress(!is_quiet);
     progress->show("certify", 0);
     Certificate certificate =
-        study::certify(scene, *reference, *rule, level,
-                       [&](const problem::Problem<2> &problem) { return points.of(problem); });
+        scene.domain.is_in_space()
+            ? study::certify(scene, *reference, rules, level,
+                             [&](const problem::Problem<3> &one) { return points.of(one); })
+            : study::certify(scene, *reference, rules, level,
+                             [&](const problem::Problem<2> &one) { return points.of(one); });
     progress.reset();
     certificate.hash = sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;

@@ -334,12 +334,12 @@ namespace
     const auto options = std::make_shared<GradeOptions>();
     auto &command = *app.add_subcommand(
         "grade", "Grade the values of another code against a certificate: digits, order, limit");
+    command.add_option("FILE", options->files,
+                       "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
+                       "x,y,u1,u2 of a vector, in three dimensions x,y,z and u or u1,u2,u3; a file "
+                       "for each grid");
     command
-        .add_option("FILE", options->files,
-                    "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
-                    "x,y,u1,u2 of a vector, in three dimensions x,y,z and u or u1,u2,u3; a file "
-                    "for each grid");
-    command.add_option("--problem", options->problem,
+        .add_option("--problem", options->problem,
                     "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "
                     "certificate.json of 'certify'")
         ->required();
@@ -384,8 +384,9 @@ namespace
              "killed",
              "DIR", "Output folder of a run", rebuild_report);
     const auto as_matrix = std::make_shared<bool>(false);
-    add_word(app, request, "list", "List methods, models, analyses, kernels, scenes or certified problems",
-             "WHAT", "methods, models, analyses, kernels, scenes or problems",
+    add_word(app, request, "list",
+             "List methods, models, analyses, kernels, scenes or certified problems", "WHAT",
+             "methods, models, analyses, kernels, scenes or problems",
              [=](const std::string &what)
              {
                plumbline::app::list(what, *as_matrix);

@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "certified_set.h"
 #include "report/text_table.h"
+#include "rules_table.h"
 #include "study/grade.h"
 
 #include <algorithm>
@@ -230,6 +231,8 @@ namespace plumbline::app
                 << certificate.least_digits() << " digits; errors are relative to "
                 << text(certificate.size) << "\n\n"
                 << report::to_text(table_of(found, !h.empty())) << '\n'
+                << "Meshfree rules of Plumbline at the same points:\n"
+                << report::to_text(table_of_rules(certificate)) << '\n'
                 << report::wrapped(answer_of(found, !h.empty()), report::summary_columns, 2)
                 << '\n';
     const std::vector<std::string> missed = complaints(required, found);

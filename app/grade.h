@@ -11,9 +11,9 @@ namespace plumbline::app
 
   struct GradeOptions
   {
-    std::vector<std::string> files; ///< see read_values()
-    std::string problem;            ///< see certificate_of()
-    std::vector<std::string> h;     ///< mesh size of each file, separated as to_numbers() says
+    std::vector<std::string> files;    ///< see read_values()
+    std::string problem;               ///< see certificate_of()
+    std::vector<std::string> h;        ///< mesh size of each file, separated as to_numbers() says
     std::vector<std::string> required; ///< digits=N, order=P, limit=certified
     bool is_points = false, is_scene = false; ///< print these of the problem, and grade nothing
     bool quiet = false;

@@ -14,6 +14,7 @@ ROOT = DOCS.parent
 sys.path.insert(0, str(DOCS / "_ext"))
 sys.dont_write_bytecode = True
 
+import plumbline_certified  # noqa: E402
 import plumbline_gallery  # noqa: E402
 import plumbline_reference as reference  # noqa: E402
 
@@ -46,6 +47,7 @@ def prepare(program, folder):
     pages = {"reference/commands.md": reference.commands_page(tell), "reference/keys.md": reference.keys_page(tell),
              "reference/methods.md": reference.methods_page(tell), "reference/results.md": reference.results_page(ROOT),
              "gallery.md": plumbline_gallery.page(ROOT, program, work, source / "_static" / "gallery")}
+    pages["certified.md"] = plumbline_certified.page(ROOT, program, tell, work, source / "_static" / "gallery")
     for name, text in pages.items():
         path = source / name
         path.parent.mkdir(exist_ok=True)

@@ -37,8 +37,8 @@ namespace plumbline::python
                                                 : "the point of another row, too; leave one out"));
       }
       if (n_given < n)
-        throw InputError("points has " + std::to_string(n_given) + " of the " +
-                         std::to_string(n) + " points of the certificate; give all of them");
+        throw InputError("points has " + std::to_string(n_given) + " of the " + std::to_string(n) +
+                         " points of the certificate; give all of them");
       return numbers;
     }
 
@@ -62,7 +62,8 @@ namespace plumbline::python
       return result;
     }
 
-    /// The set of an installed package is that of the prefix with lib/python3/dist-packages/plumbline.
+    /// The set of an installed package is that of the prefix with
+    /// lib/python3/dist-packages/plumbline.
     std::filesystem::path prefix_of_package()
     {
       constexpr unsigned int depth = 5;
@@ -96,7 +97,12 @@ namespace plumbline::python
         grades.append(py::dict("h"_a = one.h, "largest"_a = one.largest,
                                "rms"_a = one.root_mean_square, "digits"_a = one.digits,
                                "is_at_least"_a = one.is_at_least, "order"_a = one.order));
-      return py::dict("grades"_a = grades, "order"_a = found.order.value,
+      py::list rules;
+      for (const study::CertifiedRule &one : certificate.rules)
+        rules.append(py::dict("method"_a = one.method, "h"_a = one.h, "largest"_a = one.largest,
+                              "rms"_a = one.root_mean_square, "digits"_a = one.digits,
+                              "order"_a = one.order));
+      return py::dict("grades"_a = grades, "rules"_a = rules, "order"_a = found.order.value,
                       "own_order"_a = found.own_order, "gci"_a = found.index,
                       "limit_distance"_a = found.limit_distance, "bound"_a = found.bound,
                       "limit"_a = base::word(found.limit), "reason"_a = found.reason);

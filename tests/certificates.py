@@ -3,7 +3,7 @@
 is that of its text; the named ones come out again, to 1e-10 of their size.
 
 usage: certificates.py PLUMBLINE SOURCE NAME ...
-       certificates.py PLUMBLINE SOURCE --write     makes all certificates anew
+       certificates.py PLUMBLINE SOURCE --write [NAME ...]     makes these certificates anew, or all
 """
 import copy
 import hashlib
@@ -49,13 +49,15 @@ def differences(before, now):
             yield f"value {k}, bound: {a['bound']} and {b['bound']}"
 
 
-if names == ["--write"]:
+if names[:1] == ["--write"]:
     for path in sorted(folder.glob("*.prm")):
+        if names[1:] and path.stem not in names[1:]:
+            continue
         path.with_suffix(".certificate.json").write_text(certify(path.stem))
     sys.exit()
 
 found = sorted(folder.glob("*.prm"))
-if len(found) < 6:
+if len(found) < 20:
     sys.exit(f"{folder}: {len(found)} scenes")
 for path in found:
     certificate = json.loads(path.with_suffix(".certificate.json").read_text())

@@ -25,7 +25,7 @@ if(NOT EXISTS ${OUTPUT}/out/report.html)
   message(FATAL_ERROR "the command of the package writes no report")
 endif()
 run(${CMAKE_COMMAND} -E env PYTHONPATH=${OUTPUT}/unpacked/usr/lib/python3/dist-packages ${PYTHON}
-    -c "import plumbline; assert plumbline.__file__.startswith('${OUTPUT}')")
+    -c "import plumbline; assert plumbline.__file__.startswith('${OUTPUT}'); assert len(plumbline.certified_problems()) >= 20")
 foreach(file share/doc/plumbline/copyright share/man/man1/plumbline.1 share/bash-completion/completions/plumbline)
   if(NOT EXISTS ${OUTPUT}/unpacked/usr/${file})
     message(FATAL_ERROR "the package has no ${file}")

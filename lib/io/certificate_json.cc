@@ -30,6 +30,17 @@ namespace plumbline::study
   }
 
   template <class Archive>
+  void visit(Archive &a, CertifiedRule &rule)
+  {
+    a("method", rule.method);
+    a("h", rule.h);
+    a("largest", rule.largest);
+    a("rms", rule.root_mean_square);
+    a("digits", rule.digits);
+    a("order", rule.order);
+  }
+
+  template <class Archive>
   void visit(Archive &a, Certificate &certificate)
   {
     a("name", certificate.name);
@@ -43,6 +54,7 @@ namespace plumbline::study
     a("meshfree", certificate.meshfree);
     a("points", certificate.points);
     a("mean", certificate.mean);
+    a("rules", certificate.rules);
     a("scene_text", certificate.scene_text);
   }
 } // namespace plumbline::study
@@ -61,8 +73,8 @@ namespace plumbline::io
         if (!holds)
           throw InputError(what + ": " + complaint + "; " + remedy);
       };
-      require(certificate.n_components == 1 || certificate.n_components == 2,
-              "n_components is not 1 or 2");
+      require(certificate.n_components >= 1 && certificate.n_components <= 3,
+              "n_components is not 1, 2 or 3");
       require(certificate.size > 0 && std::isfinite(certificate.size),
               "size is not a number above 0");
       require(!certificate.points.empty(), "points is empty");
@@ -70,14 +82,21 @@ namespace plumbline::io
       {
         const study::CertifiedValue &one = certificate.points[i];
         const std::string place = "points[" + std::to_string(i) + "]";
-        require(one.x.size() == 2, place + ".x is not two numbers");
+        require((one.x.size() == 2 || one.x.size() == 3) &&
+                    one.x.size() == certificate.points.front().x.size(),
+                place + ".x is not two or three numbers, as many as at the other points");
         require(one.value.size() == certificate.n_components &&
                     one.other.size() == certificate.n_components,
                 place + " has not n_components values");
         require(std::isfinite(one.bound) && one.bound >= 0, place + ".bound is not a number >= 0");
-        for (const double number : {one.x[0], one.x[1], one.value.front(), one.value.back()})
-          require(std::isfinite(number), place + " has null in place of a number");
+        for (const std::vector<double> *numbers : {&one.x, &one.value})
+          for (const double number : *numbers)
+            require(std::isfinite(number), place + " has null in place of a number");
       }
+      for (const study::CertifiedRule &rule : certificate.rules)
+        require(rule.h.size() == rule.largest.size() && rule.h.size() == rule.digits.size() &&
+                    rule.h.size() == rule.root_mean_square.size(),
+                "rules: " + rule.method + " has lists of different lengths");
     }
   } // namespace
 

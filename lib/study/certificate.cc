@@ -3,6 +3,8 @@
 #include "base/choice.h"
 #include "base/error.h"
 #include "study/comparison.h"
+#include "study/estimate_in_space.h"
+#include "study/grade.h"
 #include "study/grid_convergence.h"
 #include "study/nodal_fit.h"
 #include "study/reference_estimate.h"
@@ -16,12 +18,74 @@ namespace plumbline::study
   namespace
   {
     using dealii::Point;
-    using Points = std::vector<Point<2>>;
+    template <int dim>
+    using Points = std::vector<Point<dim>>;
+    template <int dim>
+    using PointsOf = std::function<Points<dim>(const problem::Problem<dim> &)>;
 
     constexpr std::size_t n_levels = 3;  ///< that an observed order needs
     constexpr double order_of_rules = 2; ///< at a fixed horizon, of smooth fields, at most
     constexpr double safety = 2; ///< of extrapolation from coarser levels, see estimate_error()
     constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+    /// In space there is nothing but the problem.
+    struct CaseInSpace
+    {
+      problem::Problem<3> problem;
+    };
+
+    template <int dim>
+    auto case_of(const scene::Scene &scene, const problem::Level &level)
+    {
+      if constexpr (dim == 2)
+        return make_case(scene, 0, level);
+      else
+        return CaseInSpace{make_problem_in_space(scene, 0, level)};
+    }
+
+    ErrorEstimate estimate_of(const scene::Case &one, const method::Method &method,
+                              const Solution &solution, const Points<2> &points)
+    {
+      return estimate_error(one, method, solution, false, points);
+    }
+
+    /// Of its field no rate is known.
+    ErrorEstimate estimate_of(const CaseInSpace &one, const method::Method &method,
+                              const analysis::SolutionInSpace &solution, const Points<3> &points)
+    {
+      ErrorEstimate estimate = estimate_in_space(method, one.problem, solution, points);
+      estimate.field_rate = estimate.rate;
+      return estimate;
+    }
+
+    double spacing(const problem::Problem<2> &problem)
+    {
+      return problem.h;
+    }
+    double spacing(const problem::Problem<3> &problem)
+    {
+      return problem.h();
+    }
+
+    double measure(const problem::Problem<2> &problem, std::size_t cell)
+    {
+      return cell_area(problem, cell);
+    }
+    double measure(const problem::Problem<3> &problem, std::size_t /*cell*/)
+    {
+      return cell_volume(problem);
+    }
+
+    /// Of the scene, from which problems in the plane are shifted.
+    std::vector<double> coordinates(const problem::Problem<2> &problem, const Point<2> &x)
+    {
+      const dealii::Tensor<1, 2> of_scene = x + (problem.origin - Point<2>());
+      return {of_scene[0], of_scene[1]};
+    }
+    std::vector<double> coordinates(const problem::Problem<3> & /*problem*/, const Point<3> &x)
+    {
+      return {x[0], x[1], x[2]};
+    }
 
     /// What one way finds; each list has the values at the points, then the mean if it is known.
     struct Found
@@ -32,7 +96,8 @@ namespace plumbline::study
     };
 
     /// Of a piecewise field by its averages over the comparison cells, component by component.
-    std::vector<double> mean_of(const problem::Problem<2> &problem,
+    template <int dim>
+    std::vector<double> mean_of(const problem::Problem<dim> &problem,
                                 const std::vector<double> &averages)
     {
       const unsigned int n = problem.n_components;
@@ -40,7 +105,7 @@ namespace plumbline::study
       double area = 0;
       for (std::size_t cell = 0; cell * n < averages.size(); ++cell)
       {
-        const double of_cell = cell_area(problem, cell);
+        const double of_cell = measure(problem, cell);
         area += of_cell;
         for (unsigned int c = 0; c < n; ++c)
           sums[c] += of_cell * averages[cell * n + c];
@@ -50,15 +115,17 @@ namespace plumbline::study
       return sums;
     }
 
-    double area_of_cells(const problem::Problem<2> &problem, std::size_t n_averages)
+    template <int dim>
+    double size_of_cells(const problem::Problem<dim> &problem, std::size_t n_averages)
     {
       double area = 0;
       for (std::size_t cell = 0; cell * problem.n_components < n_averages; ++cell)
-        area += cell_area(problem, cell);
+        area += measure(problem, cell);
       return area;
     }
 
-    double largest_error(const problem::Problem<2> &problem, const Points &points,
+    template <int dim>
+    double largest_error(const problem::Problem<dim> &problem, const Points<dim> &points,
                          const std::vector<double> &values)
     {
       if (!problem.solution)
@@ -72,32 +139,34 @@ namespace plumbline::study
     }
 
     /// Values at points.
-    std::vector<double> values_of(const Solution &solution, const Points &points,
+    template <int dim, class Solution>
+    std::vector<double> values_of(const Solution &solution, const Points<dim> &points,
                                   unsigned int n_components)
     {
       std::vector<double> values;
-      for (const Point<2> &x : points)
+      for (const Point<dim> &x : points)
         for (unsigned int c = 0; c < n_components; ++c)
           values.push_back(solution.value(x, c));
       return values;
     }
 
-    Found by_galerkin(const scene::Case &one, const method::Method &method, const Points &points)
+    template <int dim, class Case>
+    Found by_galerkin(const Case &one, const method::Method &method, const Points<dim> &points)
     {
-      const problem::Problem<2> &problem = one.problem;
-      const Solution solution = analysis::solve(method, problem);
-      const ErrorEstimate estimate = estimate_error(one, method, solution, false, points);
-      Found found{{method.name(), {problem.h}, estimate.field_rate},
-                  values_of(solution, points, problem.n_components),
+      const problem::Problem<dim> &problem = one.problem;
+      const auto solution = analysis::solve(method, problem);
+      const ErrorEstimate estimate = estimate_of(one, method, solution, points);
+      Found found{{method.name(), {spacing(problem)}, estimate.field_rate},
+                  values_of<dim>(solution, points, problem.n_components),
                   estimate.at_points};
-      found.way.error = largest_error(problem, points, found.values);
+      found.way.error = largest_error<dim>(problem, points, found.values);
       if (!solution.diagnostics.is_outer_error_known) // the estimate is not of all errors
         found.bounds.assign(points.size(), not_known);
       const std::vector<double> mean = mean_of(problem, solution.averages);
       found.values.insert(found.values.end(), mean.begin(), mean.end());
       found.bounds.push_back(solution.diagnostics.is_outer_error_known
                                  ? estimate.estimate /
-                                       std::sqrt(area_of_cells(problem, solution.averages.size()))
+                                       std::sqrt(size_of_cells(problem, solution.averages.size()))
                                  : not_known);
       return found;
     }
@@ -122,36 +191,75 @@ namespace plumbline::study
       return bounds;
     }
 
-    Found by_meshfree(const scene::Scene &scene, const method::Method &method,
-                      const std::function<Points(const problem::Problem<2> &)> &points)
+    /// Values at the points and the mean by a rule on each of the finest levels.
+    struct RuleValues
     {
-      Found found;
-      found.way.method = method.name();
-      std::vector<std::vector<double>> values;
+      std::vector<double> h;
+      std::vector<std::vector<double>> values; ///< shape (n_levels, n_points + 1, n_components)
+      double tolerance = 0;                    ///< of the solver
+      double error = not_known;                ///< the largest on the finest level
+    };
+
+    /// Of each rule.
+    template <int dim>
+    std::vector<RuleValues> values_by_rules(const scene::Scene &scene, const method::Methods &rules,
+                                            const PointsOf<dim> &points)
+    {
+      std::vector<RuleValues> found(rules.size());
       const auto &levels = scene.study.series.front().levels;
-      double size = 0, tolerance = 0;
-      unsigned int n_components = 1;
       for (std::size_t level = levels.size() - n_levels; level < levels.size(); ++level)
       {
-        const problem::Problem<2> problem = make_problem(scene, 0, levels[level]);
-        const Solution solution = analysis::solve(method, problem);
-        const Points places = points(problem);
-        n_components = problem.n_components;
-        values.push_back(values_by_fit(places, solution.nodes, solution.nodal, n_components));
-        found.way.error = largest_error(problem, places, values.back());
-        const std::vector<double> mean = mean_of(problem, solution.averages);
-        values.back().insert(values.back().end(), mean.begin(), mean.end());
-        found.way.h.push_back(problem.h);
-        tolerance = problem.settings.solver.tolerance;
+        const auto one = case_of<dim>(scene, levels[level]);
+        const problem::Problem<dim> &problem = one.problem;
+        const Points<dim> places = points(problem);
+        for (std::size_t k = 0; k < rules.size(); ++k)
+        {
+          const auto solution = analysis::solve(*rules[k], problem);
+          std::vector<double> values =
+              values_by_fit(places, solution.nodes, solution.nodal, problem.n_components);
+          found[k].error = largest_error<dim>(problem, places, values);
+          const std::vector<double> mean = mean_of(problem, solution.averages);
+          values.insert(values.end(), mean.begin(), mean.end());
+          found[k].values.push_back(std::move(values));
+          found[k].h.push_back(spacing(problem));
+          found[k].tolerance = problem.settings.solver.tolerance;
+        }
       }
-      for (const double u : values.back())
-        size = std::max(size, std::abs(u));
-      const GridConvergence convergence = grid_convergence(found.way.h, values, order_of_rules);
-      found.way.order = convergence.order;
-      found.values = values.back();
-      found.bounds = bounds_by_changes(convergence, found.values.size() / n_components,
-                                       n_components, solver_error(tolerance, size));
       return found;
+    }
+
+    Found by_meshfree(const RuleValues &rule, const std::string &name, unsigned int n_components)
+    {
+      double size = 0;
+      for (const double u : rule.values.back())
+        size = std::max(size, std::abs(u));
+      const GridConvergence convergence = grid_convergence(rule.h, rule.values, order_of_rules);
+      Found found;
+      found.way = {name, rule.h, convergence.order, rule.error};
+      found.values = rule.values.back();
+      found.bounds = bounds_by_changes(convergence, found.values.size() / n_components,
+                                       n_components, solver_error(rule.tolerance, size));
+      return found;
+    }
+
+    /// How far a rule's values are from the certified ones.
+    CertifiedRule rule_of(const Certificate &certificate, const std::string &name,
+                          const RuleValues &found)
+    {
+      std::vector<GivenValues> given;
+      const std::size_t n_values = certificate.points.size() * certificate.n_components;
+      for (const std::vector<double> &values : found.values) // without the mean
+        given.push_back(
+            {name, {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n_values)}});
+      const SeriesGrade series = grade(certificate, given, found.h);
+      CertifiedRule rule{name, found.h, {}, {}, {}, series.order.value};
+      for (const Grade &one : series.grades)
+      {
+        rule.largest.push_back(one.largest);
+        rule.root_mean_square.push_back(one.root_mean_square);
+        rule.digits.push_back(one.digits);
+      }
+      return rule;
     }
 
     CertifiedValue value_of(const Found &galerkin, const Found &meshfree, std::size_t place,
@@ -232,46 +340,66 @@ namespace plumbline::study
     return certified_digits(largest, size);
   }
 
-  Certificate certify(const scene::Scene &scene, const method::Method &galerkin,
-                      const method::Method &meshfree, std::size_t galerkin_level,
-                      const std::function<Points(const problem::Problem<2> &)> &points)
+  namespace
   {
-    const auto &levels = scene.study.series.front().levels;
-    const scene::Case one = make_case(scene, 0, levels[galerkin_level]);
-    const Points places = points(one.problem);
-    const unsigned int n = one.problem.n_components;
-    const Found by_first = by_galerkin(one, galerkin, places),
-                by_second = by_meshfree(scene, meshfree, points);
-    Certificate certificate;
-    certificate.name = scene.name;
-    certificate.purpose = scene.purpose;
-    certificate.scene_text = scene.text;
-    certificate.horizon = one.problem.horizon();
-    certificate.n_components = n;
-    certificate.galerkin = by_first.way;
-    certificate.meshfree = by_second.way;
-    certificate.size = std::sqrt(static_cast<double>(n)) *
-                       root_mean_square({by_first.values.begin(),
-                                         by_first.values.begin() +
-                                             static_cast<std::ptrdiff_t>(places.size() * n)});
-    for (std::size_t i = 0; i <= places.size(); ++i)
+    template <int dim>
+    Certificate certify_in(const scene::Scene &scene, const method::Method &galerkin,
+                           const method::Methods &rules, std::size_t galerkin_level,
+                           const PointsOf<dim> &points)
     {
-      CertifiedValue value = value_of(by_first, by_second, i, n);
-      value.digits = certified_digits(value.bound, certificate.size);
-      if (i == places.size())
+      const auto &levels = scene.study.series.front().levels;
+      const auto one = case_of<dim>(scene, levels[galerkin_level]);
+      const Points<dim> places = points(one.problem);
+      const unsigned int n = one.problem.n_components;
+      const std::vector<RuleValues> of_rules = values_by_rules<dim>(scene, rules, points);
+      const Found by_first = by_galerkin<dim>(one, galerkin, places),
+                  by_second = by_meshfree(of_rules.front(), rules.front()->name(), n);
+      Certificate certificate;
+      certificate.name = scene.name;
+      certificate.purpose = scene.purpose;
+      certificate.scene_text = scene.text;
+      certificate.horizon = one.problem.horizon();
+      certificate.n_components = n;
+      certificate.galerkin = by_first.way;
+      certificate.meshfree = by_second.way;
+      certificate.size = std::sqrt(static_cast<double>(n)) *
+                         root_mean_square({by_first.values.begin(),
+                                           by_first.values.begin() +
+                                               static_cast<std::ptrdiff_t>(places.size() * n)});
+      for (std::size_t i = 0; i <= places.size(); ++i)
       {
-        if (!scene.methods.nodes.are_vertices())
-          certificate.mean = value;
-        break;
+        CertifiedValue value = value_of(by_first, by_second, i, n);
+        value.digits = certified_digits(value.bound, certificate.size);
+        if (i == places.size())
+        {
+          if (!scene.methods.nodes.are_vertices())
+            certificate.mean = value;
+          break;
+        }
+        if (one.problem.solution)
+          for (unsigned int c = 0; c < n; ++c)
+            value.exact.push_back(one.problem.solution->value(places[i], c));
+        value.x = coordinates(one.problem, places[i]);
+        certificate.points.push_back(value);
       }
-      if (one.problem.solution)
-        for (unsigned int c = 0; c < n; ++c)
-          value.exact.push_back(one.problem.solution->value(places[i], c));
-      const dealii::Tensor<1, 2> x = places[i] + (one.problem.origin - Point<2>());
-      value.x = {x[0], x[1]};
-      certificate.points.push_back(value);
+      for (std::size_t k = 0; k < rules.size(); ++k)
+        certificate.rules.push_back(rule_of(certificate, rules[k]->name(), of_rules[k]));
+      return certificate;
     }
-    return certificate;
+  } // namespace
+
+  Certificate certify(const scene::Scene &scene, const method::Method &galerkin,
+                      const method::Methods &rules, std::size_t galerkin_level,
+                      const PointsOf<2> &points)
+  {
+    return certify_in<2>(scene, galerkin, rules, galerkin_level, points);
+  }
+
+  Certificate certify(const scene::Scene &scene, const method::Method &galerkin,
+                      const method::Methods &rules, std::size_t galerkin_level,
+                      const PointsOf<3> &points)
+  {
+    return certify_in<3>(scene, galerkin, rules, galerkin_level, points);
   }
 
   void check_certifiable(const scene::Scene &scene)
@@ -280,14 +408,12 @@ namespace plumbline::study
     { throw InputError("scene '" + scene.name + "': " + what); };
     if (scene.is_no_problem())
       refuse("a certificate is of a static problem; leave out Time, Crack, Fracture and Strip");
-    if (scene.domain.is_in_space())
-      refuse("Domain/dimension = 3: a certificate is of a problem in two dimensions");
     if (const auto cases = scene.problem.case_names(); cases.size() != 1)
       refuse("Problem/solution and load pose " + std::to_string(cases.size()) +
              " cases; a certificate is of one: leave one in");
     if (scene.output.points.empty())
-      refuse("Output/points is empty; name a CSV file with the columns x,y, at whose points the "
-             "solution is to be certified");
+      refuse("Output/points is empty; name a CSV file with the columns x,y (in three dimensions "
+             "x,y,z), at whose points the solution is to be certified");
     if (!scene.reference.method)
       refuse("Reference/method = none; name the Galerkin method whose values are certified, "
              "e.g. Q2 on a lattice or P2 on triangles");

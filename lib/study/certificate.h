@@ -27,7 +27,7 @@ namespace plumbline::study
 
   struct CertifiedValue
   {
-    std::vector<double> x;     ///< two coordinates [length]; of the mean over Ω none
+    std::vector<double> x;     ///< two or three coordinates [length]; of the mean over Ω none
     std::vector<double> value; ///< of each component, by the Galerkin method
     double bound = 0;          ///< of the error of any component; NaN: there is none
     std::vector<double> other; ///< by the meshfree rule
@@ -43,6 +43,17 @@ namespace plumbline::study
     bool is_certain() const;
   };
 
+  /// A meshfree rule held against the certified values, as grade() does with another code's; by
+  /// levels, from coarse to fine.
+  struct CertifiedRule
+  {
+    std::string method;
+    std::vector<double> h;                         ///< [length]
+    std::vector<double> largest, root_mean_square; ///< errors relative to Certificate::size
+    std::vector<unsigned int> digits;
+    double order = std::numeric_limits<double>::quiet_NaN(); ///< of the errors above the bounds
+  };
+
   struct Certificate
   {
     std::string name, purpose, scene_text; ///< of the scene, as scene::Scene has them
@@ -53,6 +64,7 @@ namespace plumbline::study
     double size = 0; ///< root mean square of the values at the points, of |u| if u is a vector
     CertifiedWay galerkin, meshfree;
     std::vector<CertifiedValue> points;
+    std::vector<CertifiedRule> rules;   ///< the one that confirms is the first
     std::optional<CertifiedValue> mean; ///< over Ω; empty: cells about vertices do not fill Ω
 
     /// That two ways do not agree on, or that have no bound; the mean is the last, if it is there.
@@ -74,16 +86,24 @@ namespace plumbline::study
   ///   is the factor of estimates by coarser levels, and at least twice its root mean square over
   ///   all points, see raise_to_mean(); the order is at most 2. No bound: changes do not fall. The
   ///   mean's is the root mean square of the bounds at the points, or its own if that is larger.
+  /// @param rules           meshfree; the first one confirms, all are held against the result
   /// @param galerkin_level  from 0, the coarsest
   /// @param points          in the problem's coordinates
-  /// @pre  one case, one series with a fixed horizon and at least three levels, in the plane
+  /// @pre  one case, one series with a fixed horizon and at least three levels; at least one rule
   /// @throws NumericalError  there is no solution
   Certificate
-  certify(const scene::Scene &scene, const method::Method &galerkin, const method::Method &meshfree,
+  certify(const scene::Scene &scene, const method::Method &galerkin, const method::Methods &rules,
           std::size_t galerkin_level,
           const std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> &points);
 
-  /// @throws InputError  no static problem of the plane in one case; not Study/regime = m with at
+  /// In space, where the estimate rests on the changes between 2 h, h and h/2 alone, see
+  /// estimate_in_space().
+  Certificate
+  certify(const scene::Scene &scene, const method::Method &galerkin, const method::Methods &rules,
+          std::size_t galerkin_level,
+          const std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> &points);
+
+  /// @throws InputError  no static problem in one case; not Study/regime = m with at
   /// least three levels; Reference/method or Reference/estimate missing; cracks
   void check_certifiable(const scene::Scene &scene);
 } // namespace plumbline::study

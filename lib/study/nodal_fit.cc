@@ -15,19 +15,25 @@ namespace plumbline::study
   {
     using dealii::Point;
 
-    constexpr unsigned int degree = 3, n_terms = (degree + 1) * (degree + 2) / 2;
+    constexpr unsigned int degree = 3;
+
+    /// Of a cubic.
+    template <int dim>
+    constexpr unsigned int n_terms = dim == 2 ? 10 : 20;
 
     /// Nodes of a fit: three for each coefficient, so that a lattice has five of them in each
     /// direction and a corner four.
-    constexpr std::size_t most_nodes = 3 * n_terms;
+    template <int dim>
+    constexpr std::size_t most_nodes = 3 * n_terms<dim>;
 
     /// The nodes nearest to a point, the nearest first; of equal distances, that of the smaller
     /// number.
-    std::vector<std::size_t> nearest(const Point<2> &x, const std::vector<Point<2>> &nodes)
+    template <int dim>
+    std::vector<std::size_t> nearest(const Point<dim> &x, const std::vector<Point<dim>> &nodes)
     {
       std::vector<std::size_t> order(nodes.size());
       std::iota(order.begin(), order.end(), 0);
-      const std::size_t n = std::min(most_nodes, nodes.size());
+      const std::size_t n = std::min(most_nodes<dim>, nodes.size());
       std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), order.end(),
                         [&](std::size_t a, std::size_t b)
                         {
@@ -39,8 +45,22 @@ namespace plumbline::study
       return order;
     }
 
+    /// Monomials of degree 3 at most, in the order of their number.
+    template <int dim>
+    std::vector<double> monomials(const dealii::Tensor<1, dim> &x)
+    {
+      constexpr unsigned int last = dim == 2 ? 0 : degree;
+      std::vector<double> values;
+      for (unsigned int i = 0; i <= degree; ++i)
+        for (unsigned int j = 0; i + j <= degree; ++j)
+          for (unsigned int k = 0; k <= last && i + j + k <= degree; ++k)
+            values.push_back(std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[dim - 1], k));
+      return values;
+    }
+
     /// The value at a point of the polynomial about it, component by component.
-    void add_fit(const Point<2> &x, const std::vector<Point<2>> &nodes,
+    template <int dim>
+    void add_fit(const Point<dim> &x, const std::vector<Point<dim>> &nodes,
                  const std::vector<double> &nodal, unsigned int n_components,
                  std::vector<double> &values)
     {
@@ -53,16 +73,15 @@ namespace plumbline::study
         values.insert(values.end(), u, u + n_components);
         return;
       }
-      dealii::FullMatrix<double> terms(near.size(), n_terms);
-      dealii::Vector<double> weights(near.size()), data(near.size()), coefficients(n_terms);
+      dealii::FullMatrix<double> terms(near.size(), n_terms<dim>);
+      dealii::Vector<double> weights(near.size()), data(near.size()), coefficients(n_terms<dim>);
       for (unsigned int k = 0; k < near.size(); ++k)
       {
-        const dealii::Tensor<1, 2> at = (nodes[near[k]] - x) / reach;
+        const dealii::Tensor<1, dim> at = (nodes[near[k]] - x) / reach;
         weights[k] = 1 / at.norm(); // its square weighs the squares
-        unsigned int term = 0;
-        for (unsigned int i = 0; i <= degree; ++i)
-          for (unsigned int j = 0; i + j <= degree; ++j)
-            terms(k, term++) = weights[k] * std::pow(at[0], i) * std::pow(at[1], j);
+        const std::vector<double> of_node = monomials<dim>(at);
+        for (unsigned int term = 0; term < n_terms<dim>; ++term)
+          terms(k, term) = weights[k] * of_node[term];
       }
       const dealii::Householder<double> solver(terms);
       for (unsigned int c = 0; c < n_components; ++c)
@@ -73,18 +92,33 @@ namespace plumbline::study
         values.push_back(coefficients[0]);
       }
     }
+
+    template <int dim>
+    std::vector<double> fit(const std::vector<Point<dim>> &points,
+                            const std::vector<Point<dim>> &nodes, const std::vector<double> &nodal,
+                            unsigned int n_components)
+    {
+      std::vector<double> values;
+      for (const Point<dim> &x : points)
+        if (nodes.size() < n_terms<dim>)
+          values.insert(values.end(), n_components, std::numeric_limits<double>::quiet_NaN());
+        else
+          add_fit(x, nodes, nodal, n_components, values);
+      return values;
+    }
   } // namespace
 
   std::vector<double> values_by_fit(const std::vector<Point<2>> &points,
                                     const std::vector<Point<2>> &nodes,
                                     const std::vector<double> &nodal, unsigned int n_components)
   {
-    std::vector<double> values;
-    for (const Point<2> &x : points)
-      if (nodes.size() < n_terms)
-        values.insert(values.end(), n_components, std::numeric_limits<double>::quiet_NaN());
-      else
-        add_fit(x, nodes, nodal, n_components, values);
-    return values;
+    return fit(points, nodes, nodal, n_components);
+  }
+
+  std::vector<double> values_by_fit(const std::vector<Point<3>> &points,
+                                    const std::vector<Point<3>> &nodes,
+                                    const std::vector<double> &nodal, unsigned int n_components)
+  {
+    return fit(points, nodes, nodal, n_components);
   }
 } // namespace plumbline::study

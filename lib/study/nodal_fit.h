@@ -18,4 +18,7 @@ namespace plumbline::study
   std::vector<double> values_by_fit(const std::vector<dealii::Point<2>> &points,
                                     const std::vector<dealii::Point<2>> &nodes,
                                     const std::vector<double> &nodal, unsigned int n_components);
+  std::vector<double> values_by_fit(const std::vector<dealii::Point<3>> &points,
+                                    const std::vector<dealii::Point<3>> &nodes,
+                                    const std::vector<double> &nodal, unsigned int n_components);
 } // namespace plumbline::study

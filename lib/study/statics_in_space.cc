@@ -3,9 +3,9 @@
 #include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "geometry/tetrahedral_domain.h"
 #include "physics/gauss.h"
 #include "study/comparison.h"
+#include "study/estimate_in_space.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
@@ -57,54 +57,6 @@ namespace plumbline::study
               place += problem.n_components;
             });
       }
-      return result;
-    }
-
-    /// What the average over a cube stands for: itself; of a mesh an equal part of Ω, whose cubes
-    /// leave out a layer at its boundary, so that norms of levels are those of one domain.
-    double cell_volume(const ProblemInSpace &problem)
-    {
-      if (!problem.mesh)
-        return std::pow(problem.h(), 3);
-      return geometry::volume(*problem.mesh) / static_cast<double>(problem.lattice.size());
-    }
-
-    /// The L2 distance of averages over the cells of a problem; `b` empty: 0.
-    double averages_l2(const ProblemInSpace &problem, const std::vector<double> &a,
-                       const std::vector<double> &b = {})
-    {
-      double squares = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        squares += std::pow(a[i] - (b.empty() ? 0 : b[i]), 2);
-      return std::sqrt(cell_volume(problem) * squares);
-    }
-
-    /// Averages over the cells of a problem, each of eight cells of h / 2.
-    /// @param averages  over the cells of h / 2
-    std::vector<double> coarsened(const std::vector<double> &averages,
-                                  const ProblemInSpace &problem)
-    {
-      constexpr double part = 1. / 8;
-      const geometry::CubeLattice &coarse = problem.lattice;
-      const unsigned int n_components = problem.n_components;
-      const auto &n = coarse.n_cells();
-      std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * n[2] * n_components), result;
-      auto average = averages.begin();
-      coarse.at_spacing(problem.h() / 2)
-          .for_each_cell(
-              [&](const std::array<int, 3> &cell)
-              {
-                const std::size_t whole = coarse.number({cell[0] / 2, cell[1] / 2, cell[2] / 2});
-                for (unsigned int c = 0; c < n_components; ++c)
-                  sums[whole * n_components + c] += part * *average++;
-              });
-      coarse.for_each_cell(
-          [&](const std::array<int, 3> &cell)
-          {
-            const auto sum = sums.begin() + static_cast<std::ptrdiff_t>(coarse.number(cell)) *
-                                                static_cast<std::ptrdiff_t>(n_components);
-            result.insert(result.end(), sum, sum + n_components);
-          });
       return result;
     }
 
@@ -170,63 +122,6 @@ namespace plumbline::study
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
-    /// Estimated errors at points, from the change to h/2, each raised to at least twice the root
-    /// mean square of the estimates at all points.
-    /// @param contraction  of changes as h is halved
-    std::vector<double> estimate_at(const std::vector<dealii::Point<3>> &points,
-                                    const ProblemInSpace &problem, const SolutionInSpace &solution,
-                                    const SolutionInSpace &fine, double contraction)
-    {
-      std::vector<double> errors;
-      double size = 0;
-      for (const auto &x : points)
-      {
-        double change = 0;
-        for (unsigned int c = 0; c < problem.n_components; ++c)
-        {
-          change = std::max(change, std::abs(solution.value(x, c) - fine.value(x, c)));
-          size = std::max(size, std::abs(solution.value(x, c)));
-        }
-        errors.push_back(error_of_change(change, contraction));
-      }
-      raise_to_mean(errors, solver_error(problem.settings.solver.tolerance, size));
-      return errors;
-    }
-
-    /// How far the averages of a reference may be wrong, by the changes to h/2 and from 2 h, as
-    /// estimate_error() has them in the plane. Of the field and of degree p + 1 nothing is known.
-    /// @param points  where the error is estimated, too
-    ErrorEstimate estimate_of(const Method &method, const ProblemInSpace &problem,
-                              const SolutionInSpace &solution,
-                              const std::vector<dealii::Point<3>> &points = {})
-    {
-      ErrorEstimate estimate;
-      estimate.method = method.name();
-      estimate.h = problem.h();
-      estimate.horizon = problem.horizon();
-      const SolutionInSpace fine = analysis::solve(method, at_spacing(problem, problem.h() / 2));
-      estimate.h_change =
-          averages_l2(problem, solution.averages, coarsened(fine.averages, problem));
-      if (problem::has_doubled(problem))
-      {
-        const ProblemInSpace coarse = at_spacing(problem, 2 * problem.h());
-        estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
-                                             coarsened(solution.averages, coarse));
-      }
-      const double q = contraction(estimate.coarse_change, estimate.h_change,
-                                   std::pow(.5, method.order())),
-                   size = averages_l2(problem, solution.averages);
-      estimate.rate = -std::log2(q);
-      estimate.estimate = error_of_change(estimate.h_change, q) +
-                          solver_error(problem.settings.solver.tolerance, size);
-      estimate.p_change = estimate.field_p_change = not_fitted;
-      estimate.field_h_change = estimate.field_coarse_change = not_fitted;
-      estimate.field_rate = estimate.field_estimate = not_fitted;
-      estimate.certified_digits = certified_digits(estimate.estimate, size);
-      estimate.at_points = estimate_at(points, problem, solution, fine, q);
-      return estimate;
-    }
-
     /// All cases of a level in space.
     class LevelInSpace
     {
@@ -287,7 +182,7 @@ namespace plumbline::study
         if (scene_.reference.estimate == scene::Estimate::none)
           return solution.averages;
         const ErrorEstimate estimate =
-            placed(estimate_of(*method, one.problem, solution), place_, one.name);
+            placed(estimate_in_space(*method, one.problem, solution), place_, one.name);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem, solution.averages);
         if (const double tolerance = scene_.reference.tolerance;
@@ -343,7 +238,7 @@ namespace plumbline::study
         std::vector<double> errors;
         if (is_shown || is_at_points)
         {
-          const ErrorEstimate found = estimate_of(method, problem, solution, points);
+          const ErrorEstimate found = estimate_in_space(method, problem, solution, points);
           errors = found.at_points;
           if (is_shown)
             place_.results().estimates.push_back(placed(found, place_, one.name));

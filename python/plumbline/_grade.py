@@ -45,7 +45,8 @@ def grade(points, values=None, problem=None, *, h=()):
     Returns a dict: "grades" (for each grid a dict with "h", "largest" and "rms" error relative to
     the certified values, "digits", "is_at_least", "order"), "order" (least squares), "own_order",
     "gci", "limit_distance", "bound", "limit" ("converges to the certified solution", "converges to
-    another limit" or "cannot be decided"), "reason".
+    another limit" or "cannot be decided"), "reason", and "rules": the same errors of Plumbline's
+    meshfree rules, lists over their mesh sizes "h".
     """
     if problem is None:
         raise _core.InputError("problem is missing; give the name of a certified problem, one of "

@@ -125,6 +125,19 @@ TEST(Certify, refuses_with_3_where_the_ways_disagree_and_writes_nothing)
   expect_disagreement("GFD", "Q2 and GFD disagree about ");
 }
 
+TEST(Certify, refuses_a_certificate_of_no_digits)
+{
+  const fs::path folder = temporary("no_digits");
+  // the field is resolved by no mesh: 12 waves on 8 to 32 cells
+  const Outcome outcome =
+      run("certify " + scene_with() + " -o " + folder.string() +
+          " --set Reference/method=Q1 --set 'Problem/solution=sin(60*x)*cos(2*y)' "
+          "--reference-level 1 --quiet");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
+  EXPECT_FALSE(fs::exists(folder / "certificate.json"));
+  expect_found(outcome.err, "nothing is certified: ");
+}
+
 TEST(Certify, refuses_scenes_that_are_none)
 {
   const std::string scene = scene_with();
@@ -159,6 +172,40 @@ TEST(Grade, of_exact_values_is_what_the_certificate_has)
   const Outcome own =
       run("grade " + (certificate_folder() / "certificate.csv").string() + problem());
   EXPECT_EQ(own.exit_code, 0) << own.err;
+}
+
+TEST(Grade, knows_the_certified_problems_by_name)
+{
+  const Outcome list = run("list problems");
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  expect_found(list.out, "NLB-01: ");
+  const Outcome points = run("grade --points --problem nlb_01");
+  EXPECT_EQ(points.exit_code, 0) << points.err;
+  EXPECT_EQ(points.out.substr(0, 12), "x,y\n0.1,0.1\n");
+  std::istringstream lines(points.out);
+  std::string text, line;
+  std::getline(lines, line);
+  text = line + ",u\n";
+  while (std::getline(lines, line))
+  {
+    const std::size_t comma = line.find(',');
+    std::ostringstream u;
+    u.precision(17);
+    u << std::sin(3 * std::stod(line)) * std::cos(2 * std::stod(line.substr(comma + 1)));
+    text += line + ',' + u.str() + '\n';
+  }
+  const Outcome grade =
+      run("grade " + write("nlb_01.csv", text) + " --problem nLb-01 --require digits=8");
+  EXPECT_EQ(grade.exit_code, 0) << grade.err;
+  expect_found(grade.out, "\nat least ");
+  expect_found(grade.out, "Meshfree rules of Plumbline at the same points:");
+  const Outcome scene = run("grade --scene --problem NLB-01");
+  expect_found(scene.out, "set solution = wave: sin(3*x)*cos(2*y)");
+  const std::string file = values("by_name.csv", 0);
+  expect_no_grade("grade " + file + " --problem NLB-00",
+                  "problem 'NLB-00' is not in the certified set; choose one of NLB-01, NLB-02");
+  expect_no_grade("grade --problem NLB-01", "no file of values is given");
+  expect_no_grade("grade " + file + " --points --problem NLB-01", "give one of them, and no file");
 }
 
 TEST(Grade, of_a_series_has_order_and_limit)

@@ -17,6 +17,7 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${work}/build -DCMAKE_PREFIX_PATH=${work}
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/${PROGRAM})
 run(${work}/prefix/bin/plumbline list scenes)
+run(${work}/prefix/bin/plumbline grade --points --problem NLB-01)
 foreach(file share/man/man1/plumbline.1 share/bash-completion/completions/plumbline share/zsh/site-functions/_plumbline)
   file(READ ${work}/prefix/${file} text)
   if(NOT text MATCHES "dispersion")

@@ -40,6 +40,38 @@ def test_a_series_has_an_order_and_a_limit(file):
     assert biased["limit_distance"] == pytest.approx(.05, rel=.01)
 
 
+def test_problems_are_known_by_name(file, tmp_path):
+    names = plumbline.certified_problems()
+    assert names[:2] == ["NLB-01", "NLB-02"]
+    problem = plumbline.certified_problem("nlb_01")
+    points, values = certified(file)
+    assert np.array_equal(problem["points"], points) and np.array_equal(problem["values"], values)
+    assert problem["digits"] >= 8 and "sin(3*x)*cos(2*y)" in problem["scene"]
+    by_name = plumbline.grade(points, values * 1.01, "NLB-01")
+    assert by_name["grades"][0]["rms"] == pytest.approx(.01, rel=1e-9)
+    mine = tmp_path / "mine.csv"
+    np.savetxt(mine, np.column_stack([points, values * 1.01]), delimiter=",", header="x,y,u", comments="")
+    by_file = plumbline.grade(mine, problem="NLB-01")
+    assert by_file["grades"][0]["rms"] == pytest.approx(by_name["grades"][0]["rms"], rel=1e-9)
+    assert [rule["method"] for rule in by_file["rules"]][0] == "IPA-AC-R4"
+    with pytest.raises(plumbline.InputError, match="NLB-00.*choose one of NLB-01"):
+        plumbline.grade(mine, problem="NLB-00")
+    with pytest.raises(plumbline.InputError, match="problem is missing"):
+        plumbline.grade(mine)
+    with pytest.raises(plumbline.InputError, match="values is missing"):
+        plumbline.grade(points, problem="NLB-01")
+
+
+def test_a_changed_certificate_is_refused(file, tmp_path):
+    text = json.loads(file.read_text())
+    text["scene_text"] += " "
+    changed = tmp_path / "changed.json"
+    changed.write_text(json.dumps(text))
+    points, values = certified(file)
+    with pytest.raises(plumbline.InputError, match="sha256 is not that of its scene_text"):
+        plumbline.grade(points, values, changed)
+
+
 def test_other_points_are_refused(file):
     points, values = certified(file)
     with pytest.raises(plumbline.InputError, match="row 0 is no point of the certificate"):

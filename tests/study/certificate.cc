@@ -110,7 +110,9 @@ namespace
 
   Certificate certify_by(const method::Method &rule, const scene::Scene &scene = make_scene())
   {
-    return certify(scene, *find_method(reference::methods(), "Q2", "test"), rule, 2, some_points);
+    const std::shared_ptr<const method::Method> not_owned(std::shared_ptr<void>(), &rule);
+    return certify(scene, *find_method(reference::methods(), "Q2", "test"), {not_owned}, 2,
+                   some_points);
   }
 
   /// Of a certificate with known values.
@@ -249,6 +251,87 @@ TEST(NodalFit, has_cubics_exactly_and_beside_corners_too)
   nodal[0] = 1e3; // a point on a node has its value whatever its neighbours have
   EXPECT_DOUBLE_EQ(values_by_fit({nodes[0]}, nodes, nodal, 2)[0], 1e3);
   EXPECT_TRUE(std::isnan(values_by_fit(points, {nodes.begin(), nodes.begin() + 9}, nodal, 2)[0]));
+}
+
+TEST(NodalFit, has_cubics_in_space)
+{
+  const auto cubic = [](const Point<3> &x)
+  { return 1 + x[0] - 2 * x[1] * x[2] + x[0] * x[1] * x[2] + std::pow(x[2], 3) - x[1] * x[1]; };
+  std::vector<Point<3>> nodes;
+  std::vector<double> nodal;
+  for (int k = 0; k < 6; ++k)
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i)
+      {
+        nodes.emplace_back(.1 * i, .1 * j, .1 * k);
+        nodal.push_back(cubic(nodes.back()));
+      }
+  const std::vector<Point<3>> points = {{.22, .31, .13}, {.5, .01, .44}, {.25, .25, .25}};
+  const std::vector<double> values = values_by_fit(points, nodes, nodal, 1);
+  for (unsigned int i = 0; i < points.size(); ++i)
+    EXPECT_NEAR(values[i], cubic(points[i]), 1e-11) << points[i];
+}
+
+TEST(Certificate, in_space_has_bounds_that_hold)
+{
+  const scene::Scene scene = scene::parse_scene("test.prm", "",
+                                                {{"Domain/dimension", "3"},
+                                                 {"Domain/boxes", "0, 0, 0 : 1/2, 1/2, 1/2"},
+                                                 {"Kernel/type", "linear-decay"},
+                                                 {"Study/regime", "m"},
+                                                 {"Study/horizon", "1/4"},
+                                                 {"Study/h", "1/8,1/16,1/32"},
+                                                 {"Problem/solution", "sin(3*x)*cos(2*y)*exp(z)"},
+                                                 {"Methods/names", "PA-AC"},
+                                                 {"Reference/method", "Q1"},
+                                                 {"Output/points", "at.csv"}});
+  check_certifiable(scene);
+  const auto points = [](const problem::Problem<3> &) {
+    return std::vector<Point<3>>{{.1, .2, .3}, {.4, .25, .25}, {.31, .11, .4}};
+  };
+  const Certificate found = certify(scene, *find_method(reference::methods(), "Q1", "test"),
+                                    {find_method(meshfree::methods(), "PA-AC", "test")}, 0, points);
+  ASSERT_EQ(found.points.size(), 3u);
+  EXPECT_TRUE(found.refused().empty());
+  EXPECT_GE(found.least_digits(), 1u);
+  for (const CertifiedValue &one : found.points)
+  {
+    ASSERT_EQ(one.x.size(), 3u);
+    EXPECT_GT(one.error(), 0) << one.x[0];
+    EXPECT_LT(one.error(), one.bound) << one.x[0];
+    EXPECT_LT(std::abs(one.other[0] - one.exact[0]), one.other_bound) << one.x[0];
+  }
+  ASSERT_TRUE(found.mean);
+  // over (0, 1/2): the means of sin 3x, of cos 2y and of exp z
+  const double mean = 2 * (1 - std::cos(1.5)) / 3 * std::sin(1.) * 2 * (std::exp(.5) - 1);
+  EXPECT_NEAR(found.mean->value[0], mean, found.mean->bound);
+  EXPECT_LT(found.mean->bound, .05 * mean);
+  const CertifiedPlaces places(found);
+  EXPECT_EQ(places.find({.4, .25, .25}), 1u);
+  EXPECT_EQ(places.find({.4, .25, .2}), 3u); // none
+}
+
+TEST(Certificate, has_each_rule_with_its_own_errors)
+{
+  const scene::Scene scene = make_scene();
+  const method::Methods all = meshfree::methods();
+  const Certificate found =
+      certify(scene, *find_method(reference::methods(), "Q2", "test"),
+              {find_method(all, "PA-AC", "test"), find_method(all, "FA", "test")}, 2, some_points);
+  ASSERT_EQ(found.rules.size(), 2u);
+  EXPECT_EQ(found.rules[1].method, "FA");
+  for (const CertifiedRule &rule : found.rules)
+  {
+    EXPECT_EQ(rule.h, (std::vector<double>{1. / 8, 1. / 16, 1. / 32}));
+    ASSERT_EQ(rule.largest.size(), 3u);
+    EXPECT_GE(rule.largest[2], rule.root_mean_square[2]);
+  }
+  double largest = 0; // of the first one, by the values in the certificate
+  for (const CertifiedValue &one : found.points)
+    largest = std::max(largest, one.difference() / found.size);
+  EXPECT_NEAR(found.rules[0].largest[2], largest, 1e-12);
+  EXPECT_NE(found.rules[1].largest[2], found.rules[0].largest[2]);
+  EXPECT_NEAR(found.rules[0].order, 2, .3);
 }
 
 TEST(GridConvergence, extrapolates_to_the_limit_of_a_power_law)
