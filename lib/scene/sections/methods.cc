@@ -26,13 +26,14 @@ namespace plumbline::scene
         "forces, but not the dilatation or the stretch that breaks bonds; for the variational "
         "model, the influence function alone. IPA-AC-R2 and IPA-AC-R4 do so for scalar kernels; "
         "they evaluate tensors, double wells and LPS at the node.");
-    keys.add("nodes", nodes.name,
-             "Meshfree nodes: centres of lattice cells, vertices (of a lattice, with constrained "
-             "nodes on the boundary), mesh (centroids of mesh cells), or a .csv file with columns "
-             "x and y, in three dimensions x, y and z; {h} in its name selects one file for each "
-             "level (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes, and on scattered nodes in "
-             "three dimensions, the node cells are Voronoi cells; with mesh in three dimensions they "
-             "are the tetrahedra.");
+    keys.add(
+        "nodes", nodes.name,
+        "Meshfree nodes: centres of lattice cells, vertices (of a lattice, with constrained "
+        "nodes on the boundary), mesh (centroids of mesh cells), or a .csv file with columns "
+        "x and y, in three dimensions x, y and z; {h} in its name selects one file for each "
+        "level (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes, and on scattered nodes in "
+        "three dimensions, the node cells are Voronoi cells; with mesh in three dimensions they "
+        "are the tetrahedra.");
     keys.add(
         "perturbation", nodes.perturbation, between(0, .49),
         "Random displacement of centres by up to this multiple of h along each axis "
