@@ -112,11 +112,11 @@ namespace plumbline::reference
         return x;
       }
 
-      /// By cubes two vertices wide, which are the blocks.
+      /// By cubes a vertex or two wide, which are the blocks.
       void sort(const TetrahedralMesh &mesh, double horizon)
       {
-        constexpr double vertices_across = 2;
-        const double size = vertices_across * std::cbrt(of_vertex_);
+        // values that pairs share fit into some 10 MB
+        const double spacing = std::cbrt(of_vertex_), size = spacing * (spacing > .2 ? 2 : 1);
         using Key = std::array<long, 3>;
         std::vector<std::pair<Key, std::size_t>> keys;
         for (const SpaceFace &face : faces_)
@@ -164,11 +164,16 @@ namespace plumbline::reference
         else
           by_rule_.emplace(potential_, rule.refinement);
         for (const SpaceFace &face : faces_.faces())
+        {
+          largest_jump_.push_back(0);
+          for (const SpaceFace::Jump &jump : face.jumps)
+            largest_jump_.back() = std::max(largest_jump_.back(), std::abs(jump.value));
           is_needed_.push_back(std::any_of(face.jumps.begin(), face.jumps.end(),
                                            [n_rows](const SpaceFace::Jump &jump)
                                            { return jump.dof < n_rows; })
                                    ? 1
                                    : 0);
+        }
       }
 
       const std::vector<SpaceFace> &faces() const { return faces_.faces(); }
@@ -191,19 +196,21 @@ namespace plumbline::reference
         const std::size_t first = blocks()[block], last = blocks()[block + 1];
         std::vector<std::vector<unsigned int>> near(last - first);
         std::vector<const NumberedFace *> own, all;
-        std::vector<char> is_met(faces().size() - first);
+        find_candidates(first, last, work);
+        std::vector<char> is_met(work.near.size());
         for (std::size_t face = first; face < last; ++face)
         {
-          near[face - first] = partners(face, work);
-          if (near[face - first].empty())
-            continue;
-          own.push_back(&faces_.numbered(face));
-          for (const unsigned int other : near[face - first])
-            if (is_met[other - first] == 0)
+          std::vector<unsigned int> &partners = near[face - first];
+          for (std::size_t k = 0; k < work.near.size(); ++k)
+            if (are_partners(face, work.near[k]))
             {
-              is_met[other - first] = 1;
-              all.push_back(&faces_.numbered(other));
+              partners.push_back(work.near[k]);
+              if (is_met[k] == 0)
+                all.push_back(&faces_.numbered(work.near[k]));
+              is_met[k] = 1;
             }
+          if (!partners.empty())
+            own.push_back(&faces_.numbered(face));
         }
         if (exact_)
           work.shared.start(own, all);
@@ -220,26 +227,37 @@ namespace plumbline::reference
                                             : faces_.volume_of_cell());
       }
 
-      /// Faces G >= F so near that f may not vanish, one of the two with a row that is asked for.
-      std::vector<unsigned int> partners(std::size_t face, Workspace &work) const
+      /// Faces that may be partners of one of a block.
+      void find_candidates(std::size_t first, std::size_t last, Workspace &work) const
       {
-        auto [lower, upper] = search_.box(static_cast<unsigned int>(face));
+        geometry::Cuboid box = search_.box(static_cast<unsigned int>(first));
+        for (std::size_t face = first; face < last; ++face)
+        {
+          const geometry::Cuboid &own = search_.box(static_cast<unsigned int>(face));
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            box.lower[d] = std::min(box.lower[d], own.lower[d]);
+            box.upper[d] = std::max(box.upper[d], own.upper[d]);
+          }
+        }
         for (unsigned int d = 0; d < 3; ++d)
         {
-          lower[d] -= 1;
-          upper[d] += 1;
+          box.lower[d] -= 1;
+          box.upper[d] += 1;
         }
-        search_.find({lower, upper}, work.near);
-        const PairFace &f = *faces_.numbered(face).face;
-        std::vector<unsigned int> result;
-        for (const unsigned int other : work.near)
-        {
-          const PairFace &g = *faces_.numbered(other).face;
-          if (other >= face && (is_needed_[face] != 0 || is_needed_[other] != 0) &&
-              f.centre().distance(g.centre()) < 1 + f.radius() + g.radius())
-            result.push_back(other);
-        }
-        return result;
+        search_.find(box, work.near);
+        work.near.erase(work.near.begin(),
+                        std::lower_bound(work.near.begin(), work.near.end(), first));
+      }
+
+      /// Each pair once, so near that f may not vanish, and with a row that is asked for.
+      bool are_partners(std::size_t face, std::size_t other) const
+      {
+        if (other < face || (is_needed_[face] == 0 && is_needed_[other] == 0))
+          return false;
+        const PairFace &f = *faces_.numbered(face).face, &g = *faces_.numbered(other).face;
+        const double reach = 1 + f.radius() + g.radius();
+        return f.centre().distance_square(g.centre()) < reach * reach;
       }
 
       double integral(std::size_t face, unsigned int other, Workspace &work) const
@@ -249,9 +267,15 @@ namespace plumbline::reference
           return (*by_rule_)(*f.face, *g.face);
         if (spacing_ > 0)
           return repeated(f, g, work);
+        return exactly(f, g, work);
+      }
+
+      double exactly(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
+      {
         const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
         ++work.use.n_pairs[integral.level];
-        work.use.error = std::max(work.use.error, integral.error);
+        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
+                                                      largest_jump_[g.number]);
         return integral.value;
       }
 
@@ -275,11 +299,9 @@ namespace plumbline::reference
           if (const auto found = known_.find(places); found != known_.end())
             return found->second;
         }
-        const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
-        ++work.use.n_pairs[integral.level];
-        work.use.error = std::max(work.use.error, integral.error);
+        const double value = exactly(f, g, work);
         const std::lock_guard<std::mutex> lock(mutex_);
-        return known_[places] = integral.value;
+        return known_[places] = value;
       }
 
       /// Of unknowns j: Σ_G ∬_{F×G} Λ n_F·n_j(G), or -Σ_G J_j(G) ∬_{F×G} Ψ.
@@ -323,8 +345,9 @@ namespace plumbline::reference
       std::optional<ExactPairs> exact_;
       using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
       mutable std::map<Places, double> known_;
-      mutable std::mutex mutex_;    ///< of what is known
-      std::vector<char> is_needed_; ///< faces that rows asked for have
+      mutable std::mutex mutex_;         ///< of what is known
+      std::vector<double> largest_jump_; ///< of each face
+      std::vector<char> is_needed_;      ///< faces that rows asked for have
       geometry::BoxSearch<3> search_;
     };
 
@@ -417,15 +440,6 @@ namespace plumbline::reference
       }
     }
 
-    double largest_jump_square(const std::vector<SpaceFace> &faces)
-    {
-      double largest = 0;
-      for (const SpaceFace &face : faces)
-        for (const SpaceFace::Jump &jump : face.jumps)
-          largest = std::max(largest, jump.value * jump.value);
-      return largest;
-    }
-
     double least_diagonal(const std::vector<Row> &rows)
     {
       double least = std::numeric_limits<double>::infinity();
@@ -479,7 +493,7 @@ namespace plumbline::reference
             for (std::size_t block = begin; block < end; ++block)
               of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
             const std::lock_guard<std::mutex> lock(mutex);
-            for (unsigned int level = 0; level < 3; ++level)
+            for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
               total.n_pairs[level] += work.use.n_pairs[level];
             total.error = std::max(total.error, work.use.error);
           },
@@ -497,7 +511,7 @@ namespace plumbline::reference
     if (use != nullptr)
     {
       *use = total;
-      use->error *= largest_jump_square(of_face.faces()) / least_diagonal(rows);
+      use->error /= least_diagonal(rows);
     }
     return to_matrix(rows, unit);
   }

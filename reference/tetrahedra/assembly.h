@@ -21,7 +21,7 @@ namespace plumbline::reference
     bool is_exact = true;
     /// What a pair's round-off may be, relative to m₀ times a volume, which is like the diagonal:
     /// thousands of pairs, whose round-off is random, add up to an entry.
-    double tolerance = 8e-15;
+    double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
     /// Vertices are a lattice's, with this spacing [length], and pairs of faces that are
     /// translations of each other are integrated once; 0: they are not.
@@ -31,8 +31,8 @@ namespace plumbline::reference
   /// How they were made, exactly.
   struct FaceRuleUse
   {
-    /// Pairs of faces in double, in long double and with 113 bits.
-    std::array<std::size_t, 3> n_pairs{};
+    /// Pairs of faces in double, in long double, with 113 and with 237 bits.
+    std::array<std::size_t, 4> n_pairs{};
     /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
     /// diagonal entry.
     double error = 0;

@@ -17,8 +17,8 @@ namespace plumbline::reference
   /// ∬_{F×G} f(|x - y|) of a FacePotential f in closed form but for integrals along lines, which
   /// Gauss rules give to round-off: see PairForm. Each sum carries a bound of its round-off. Where
   /// that exceeds a tolerance, since edges are nearly parallel to the other plane, the same is done
-  /// in long double, and then with 113 bits. Exactly parallel edges and planes have a form of their
-  /// own.
+  /// in long double, and then with 113 and 237 bits. Exactly parallel edges and planes have a form
+  /// of their own.
   class ExactPairs
   {
   public:
@@ -31,7 +31,7 @@ namespace plumbline::reference
     {
       double value = 0;
       double error = 0;       ///< a bound in practice of its round-off
-      unsigned int level = 0; ///< 0: double, 1: long double, 2: 113 bits
+      unsigned int level = 0; ///< 0: double, 1: long double, 2: 113 bits, 3: 237
     };
 
     /// Values that pairs share for the same two edges, or a vertex and a face. Not thread safe.
@@ -58,7 +58,7 @@ namespace plumbline::reference
     /// Without shared values.
     Integral operator()(const PairFace &f, const PairFace &g) const;
 
-    /// With 113 bits.
+    /// With 237 bits, in general position, too.
     double precise(const PairFace &f, const PairFace &g) const;
 
   private:

@@ -71,6 +71,16 @@ namespace plumbline::reference
     {
       return other.shares(names[k]) && other.shares(names[next(k)]);
     }
+    /// Of edges that are not parallel to the other plane.
+    Real least_rise() const
+    {
+      using std::abs;
+      Real least = 1;
+      for (unsigned int k = 0; k < 3; ++k)
+        if (!is_parallel[k])
+          least = std::min(least, Real(abs(rise[k])));
+      return least;
+    }
     bool is_all_parallel() const { return is_parallel[0] && is_parallel[1] && is_parallel[2]; }
   };
 
@@ -107,6 +117,7 @@ namespace plumbline::reference
 
     /// @param f  whose vertices have the shared values K(v, G), the other's K(v', F)
     /// @param rounding  of heights
+    /// The size is that of terms, as their factors are known, whose heights are rounded themselves.
     Sum<Real> operator()(Face f, Face g, double rounding)
     {
       sum_ = {};
@@ -133,6 +144,13 @@ namespace plumbline::reference
         add_parallel_edges(f, g, axis, Real(1 / sine), false);
         add_parallel_edges(g, f, axis, Real(-1 / sine), true);
       }
+      // rises are differences of heights, which have the round-off of the distance; measured
+      constexpr double share = 1e-3;
+      const Real distance = (f.x[0] - g.x[0]).norm();
+      sum_.size *= 1 + share * distance / std::min(f.least_rise(), g.least_rise());
+      constexpr double least_sine = 1e-3, no_bound = 1e30;
+      if (has_parallel && sine < least_sine && rounding > 0)
+        sum_.size *= no_bound; // what is taken for parallel ought to be so to more digits
       return sum_;
     }
 
@@ -307,7 +325,7 @@ namespace plumbline::reference
                          Sum<Real> &result) const
     {
       using std::sqrt;
-      constexpr double least_axis = 1.44;
+      const double least_axis = GaussRules<Real>::get().least_axis();
       constexpr unsigned int most_depth = 60;
       const Real size = at[1] - at[0];
       const Real eta = square + function.distance() * function.distance();

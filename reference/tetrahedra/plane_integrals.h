@@ -77,6 +77,9 @@ namespace plumbline::reference
       return rules_[k];
     }
 
+    /// Pieces with a smaller half axis are cut.
+    double least_axis() const { return std::max(1.44, least_axis_.back()); }
+
     static Real epsilon() { return std::numeric_limits<Real>::epsilon(); }
 
   private:
@@ -436,7 +439,7 @@ namespace plumbline::reference
     {
       const Real square = kappa * kappa, eta = square + distance_ * distance_,
                  axis = half_axis(from, to, eta);
-      if (axis < least_axis && depth < most_depth)
+      if (axis < GaussRules<Real>::get().least_axis() && depth < most_depth)
       {
         const Real cut = middle(from, to);
         add_piece(f, foot, kappa, from, cut, depth + 1, sum);
@@ -512,6 +515,7 @@ namespace plumbline::reference
       using std::abs;
       const Real square = state.kappa * state.kappa, height = distance_ * distance_;
       Real axis = half_axis(from, to, square);
+      const double least_axis = GaussRules<Real>::get().least_axis();
       bool is_subtracted = false;
       if (axis < least_axis)
       {
@@ -557,7 +561,6 @@ namespace plumbline::reference
       sum.add(state.foot * (state.seen - (is_inside ? turn : Real(0))));
     }
 
-    static constexpr double least_axis = 1.44;
     static constexpr unsigned int most_depth = 60;
 
     unsigned int n_;
