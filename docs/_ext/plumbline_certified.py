@@ -182,8 +182,8 @@ def section(path, work, program, pictures, kernels):
     parts = [f"## {title}", "", certificate["purpose"].removeprefix(f"{title}: ") + f". {digits} digits at all "
              f"{len(certificate['points'])} points, by {certificate['galerkin']['method']}; confirmed by "
              f"{certificate['meshfree']['method']}.", ""]
-    if formula:
-        parts += [f"$${formula}$$", ""]
+    parts += [f"$${formula}$$" if formula else "The equations are those of [state-based solids]"
+              "(theory/state_based.md).", ""]
     parts += ["```{raw} html", '<div class="certified">',
               f'<figure><img src="_static/gallery/{file}" alt="{caption}" loading="lazy">'
               f"<figcaption>{html.escape(caption)}</figcaption></figure>",
@@ -220,7 +220,7 @@ def page(root, program, tell, work, pictures):
              "To grade your code, print the points (`plumbline grade --points --problem NLB-01`) and the scene "
              "(`--scene`), write the values of your code to a CSV file (`x,y,u`), and run `plumbline grade mine.csv "
              '--problem NLB-01`; in Python `plumbline.grade("mine.csv", problem="NLB-01")`.', "",
-             "| problem | | points | digits | confirmed by rule to |", "|---|---|---|---|---|"]
+             "| problem | statement | points | digits | confirmed to (relative) |", "|---|---|---|---|---|"]
     for _, (title, certificate, digits) in found:
         relative = max(max([p["other_bound"]] + [abs(a - b) for a, b in zip(p["value"], p["other"])])
                        for p in certificate["points"]) / certificate["size"]
