@@ -13,6 +13,7 @@
 #include "scene/capabilities.h"
 #include "study/conclusions.h"
 #include "study/method_names.h"
+#include "study/preflight.h"
 #include "study/sampling.h"
 #include "study/statics.h"
 #include "summary.h"
@@ -38,6 +39,43 @@ namespace plumbline::app
       return std::any_of(methods.begin(), methods.end(),
                          [](const auto &method)
                          { return method->family() == method::MethodFamily::meshfree; });
+    }
+
+    std::string names_of(const method::Methods &methods)
+    {
+      std::string names;
+      for (const auto &method : methods)
+        names += (names.empty() ? "" : ", ") + method->name();
+      return names;
+    }
+
+    /// What provenance says of the work of several ranks; empty: all of it is shared, as on meshes.
+    std::string work_of_ranks(const scene::Scene &scene, const method::Methods &methods)
+    {
+      if (!scene.domain.is_in_space())
+        return repeats_work(scene, methods)
+                   ? "repeated by each: lattices are not shared among ranks"
+                   : "";
+      const method::Methods repeated = study::repeated_by_ranks(scene, methods);
+      if (repeated.empty())
+        return "distributed in slabs of cells along z";
+      return "repeated by each: " + names_of(repeated) +
+             (repeated.size() < methods.size() ? "; others distributed in slabs of cells along z"
+                                               : "");
+    }
+
+    /// Why ranks repeat work.
+    void tell_repeated_work(const scene::Scene &scene, const method::Methods &methods,
+                            unsigned int n_ranks)
+    {
+      std::cerr << "note: each of the " << n_ranks << " ranks repeats all of the work";
+      if (scene.domain.is_in_space())
+        std::cerr << " of " << names_of(study::repeated_by_ranks(scene, methods))
+                  << "; Q1, DGQ0 and rules on the nodes of the lattice are distributed where the "
+                     "domain is one box\n";
+      else
+        std::cerr << ", since lattices are not shared among them; one rank is as fast, and "
+                     "Domain/mesh = squares is shared\n";
     }
 
     /// What an interrupted run of the same scene left in the folder.
@@ -121,23 +159,24 @@ namespace plumbline::app
       results.provenance = provenance();
       if (const auto spectrum = study::field_spectrum(scene.random))
         results.provenance["random field"] = words_of(*spectrum);
-      if (communicator.n_ranks() > 1 && repeats_work(scene, methods))
-        results.provenance["work of ranks"] =
-            "repeated by each: lattices are not shared among ranks";
+      if (const std::string work = work_of_ranks(scene, methods);
+          communicator.n_ranks() > 1 && !work.empty())
+        results.provenance["work of ranks"] = work;
       return results;
     }
 
     /// @param earlier  as begin_results() gives them
-    void tell_beginning(const study::StudyResults &earlier, const fs::path &folder,
+    void tell_beginning(const study::StudyResults &earlier, const scene::Scene &scene,
+                        const method::Methods &methods, const fs::path &folder,
                         const base::Communicator &communicator, bool is_quiet)
     {
       if (!earlier.records.empty() && !is_quiet)
         std::cerr << "continuing: " << earlier.records.size() << " solves are in '"
                   << folder.string() << "' already\n";
-      if (communicator.rank() == 0 && earlier.provenance.count("work of ranks") > 0)
-        std::cerr << "note: each of the " << communicator.n_ranks()
-                  << " ranks repeats all of the work, since lattices are not shared among them; "
-                     "one rank is as fast, and Domain/mesh = squares is shared\n";
+      const auto work = earlier.provenance.find("work of ranks");
+      if (communicator.rank() == 0 && work != earlier.provenance.end() &&
+          work->second.find("repeated") == 0)
+        tell_repeated_work(scene, methods, communicator.n_ranks());
     }
 
     /// On the first rank. If that fails, all ranks stop.
@@ -157,6 +196,7 @@ namespace plumbline::app
                                           PointValues &points)
     {
       study::StaticsOptions options;
+      options.ranks = communicator;
       if (points.is_wanted())
       {
         options.points = [&points](const problem::Problem<2> &problem)
@@ -241,7 +281,7 @@ namespace plumbline::app
     preparing.reset();
     const OutputFolder output(folder, {"run", scene.name, scene.text}, communicator);
     const study::StudyResults earlier = begin_results(folder, scene, methods, communicator);
-    tell_beginning(earlier, folder, communicator, is_quiet);
+    tell_beginning(earlier, scene, methods, folder, communicator, is_quiet);
 
     watch_interrupts();
     io::RecordJournal journal(folder / "results.jsonl", scene.text);

@@ -148,6 +148,10 @@ namespace plumbline::meshfree
       {
         return meshfree::expected_bytes(size);
       }
+      bool is_distributed_in_space(const method::ProblemSize &size) const override
+      {
+        return size.is_box && !size.is_scattered;
+      }
 
     private:
       template <int dim>

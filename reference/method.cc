@@ -149,6 +149,10 @@ namespace plumbline::reference
         return method::expected_lattice_bytes(size, n_families, size.n_components,
                                               size.reach() / size.level.h + 1);
       }
+      bool is_distributed_in_space(const method::ProblemSize &size) const override
+      {
+        return n_vertices_ == 4 && has_one_family() && size.is_box;
+      }
 
     private:
       /// Of shape functions per cell.

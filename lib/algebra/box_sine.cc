@@ -1,14 +1,11 @@
 #include "algebra/rectangle_solver.h"
+#include "algebra/sine_symbol.h"
 
-#include "base/error.h"
 #include "base/fftw.h"
 
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace plumbline::algebra
 {
@@ -18,53 +15,6 @@ namespace plumbline::algebra
 
   namespace
   {
-    /// cos(k θ_p), θ_p = π (p + 1) / (n + 1), times 2 for k > 0 (both signs of k): shape (n, reach
-    /// + 1).
-    std::vector<double> cosines(int n, int reach)
-    {
-      std::vector<double> result;
-      for (int p = 1; p <= n; ++p)
-        for (int k = 0; k <= reach; ++k)
-          result.push_back((k == 0 ? 1 : 2) * std::cos(M_PI * k * p / (n + 1)));
-      return result;
-    }
-
-    /// Σ_k values(i, k, j) cosines(p, k), shape (n_outer, n, n_inner)
-    std::vector<double> contract(const std::vector<double> &values,
-                                 const std::vector<double> &cosines, std::size_t n,
-                                 std::size_t n_inner)
-    {
-      const std::size_t n_offsets = cosines.size() / n,
-                        n_outer = values.size() / (n_offsets * n_inner);
-      std::vector<double> result(n_outer * n * n_inner);
-      for (std::size_t i = 0; i < n_outer; ++i)
-        for (std::size_t p = 0; p < n; ++p)
-          for (std::size_t k = 0; k < n_offsets; ++k)
-            for (std::size_t j = 0; j < n_inner; ++j)
-              result[(i * n + p) * n_inner + j] +=
-                  values[(i * n_offsets + k) * n_inner + j] * cosines[p * n_offsets + k];
-      return result;
-    }
-
-    /// The symbol of component c at the modes of the transform, shape (n[2], n[1], n[0]).
-    std::vector<double> eigenvalues(const Stencil &stencil, unsigned int c,
-                                    const std::array<int, 3> &n)
-    {
-      const auto &reach = stencil.reaches();
-      std::vector<double> values;
-      for (int k3 = 0; k3 <= reach[2]; ++k3)
-        for (int k2 = 0; k2 <= reach[1]; ++k2)
-          for (int k1 = 0; k1 <= reach[0]; ++k1)
-            values.push_back(stencil(c, c, k1, k2, k3));
-      std::size_t n_inner = 1;
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        values = contract(values, cosines(n[d], reach[d]), n[d], n_inner);
-        n_inner *= n[d];
-      }
-      return values;
-    }
-
     class BoxSineSolver : public RectangleSolver
     {
     public:
@@ -110,16 +60,9 @@ namespace plumbline::algebra
         scale /= 2. * (length + 1);
       for (unsigned int c = 0; c < stencil.n_blocks(); ++c)
       {
-        std::vector<double> values = eigenvalues(stencil, c, n_);
+        std::vector<double> values = sine_symbol(stencil, c, n_, {0, n_[1]});
         const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-        if (!(*least > 0))
-        {
-          std::ostringstream message;
-          message << "the operator is not positive definite: its symbol reaches " << *least
-                  << " (largest " << *largest
-                  << "); the rule is unstable here, change the rule or the ratio horizon / h";
-          throw NumericalError(message.str());
-        }
+        check_positive(*least, *largest);
         for (double &value : values)
           value = scale / value;
         inverse_eigenvalues_.push_back(std::move(values));

@@ -132,7 +132,8 @@ namespace plumbline::algebra
     }
   }
 
-  Convolution::Convolution(const Stencil &stencil, std::array<int, 3> n, int margin)
+  Convolution::Convolution(const Stencil &stencil, std::array<int, 3> n,
+                           const std::array<int, 3> &margins)
       : transforms_(std::make_unique<Transforms>())
   {
     transforms_->n_blocks = stencil.n_blocks();
@@ -141,9 +142,9 @@ namespace plumbline::algebra
     {
       const int reach = stencil.reaches()[d];
       const bool is_flat = d == 2 && reach == 0;
-      transforms_->margin[d] = is_flat ? 0 : margin;
+      transforms_->margin[d] = is_flat ? 0 : margins[d];
       transforms_->length[d] =
-          is_flat ? n[d] : fast_length(std::max(n[d] + reach + margin, 2 * reach + 1));
+          is_flat ? n[d] : fast_length(std::max(n[d] + reach + margins[d], 2 * reach + 1));
     }
     transforms_->make_plans();
     transforms_->transform_stencil(stencil);

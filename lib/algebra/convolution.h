@@ -15,7 +15,12 @@ namespace plumbline::algebra
     /// @param n       extents of the output positions
     /// @param margin  the input reaches this many positions beyond the output on every side
     ///                along axes of which the stencil has a reach
-    Convolution(const Stencil &stencil, std::array<int, 3> n, int margin);
+    Convolution(const Stencil &stencil, std::array<int, 3> n, int margin)
+        : Convolution(stencil, n, std::array<int, 3>{margin, margin, margin})
+    {
+    }
+    /// @param margins  of each axis
+    Convolution(const Stencil &stencil, std::array<int, 3> n, const std::array<int, 3> &margins);
     Convolution(const Stencil &stencil, std::array<int, 2> n, int margin)
         : Convolution(stencil, std::array<int, 3>{n[0], n[1], 1}, margin)
     {
@@ -23,7 +28,8 @@ namespace plumbline::algebra
     Convolution(Convolution &&) noexcept;
     ~Convolution();
 
-    /// @param input   shape (n_blocks, n[2] + 2 margin, n[1] + 2 margin, n[0] + 2 margin)
+    /// @param input   shape (n_blocks, n[2] + 2 margin, n[1] + 2 margin, n[0] + 2 margin), with the
+    ///                margin of each axis
     /// @param output  shape (n_blocks, n[2], n[1], n[0])
     void apply(const double *input, double *output) const;
 

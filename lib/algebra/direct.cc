@@ -104,10 +104,11 @@ namespace plumbline::algebra
     return stencil.n_blocks() <= 3 && stencil.is_even();
   }
 
-  DirectStencil::DirectStencil(const Stencil &stencil, std::array<int, 3> n)
+  DirectStencil::DirectStencil(const Stencil &stencil, std::array<int, 3> n, bool has_halo)
       : n_blocks_(stencil.n_blocks()), n_(n), reach_(stencil.reaches()),
-        width_((n[0] + tile - 1) / tile * tile + 2 * reach_[0]), height_(n[1] + 2 * reach_[1]),
-        block_size_(width_ * height_ * (n[2] + 2 * reach_[2])), padded_(n_blocks_ * block_size_)
+        halo_(has_halo ? reach_[2] : 0), width_((n[0] + tile - 1) / tile * tile + 2 * reach_[0]),
+        height_(n[1] + 2 * reach_[1]), block_size_(width_ * height_ * (n[2] + 2 * reach_[2])),
+        padded_(n_blocks_ * block_size_)
   {
     const auto weights = [&](int k1, int k2, int k3)
     {
@@ -134,10 +135,9 @@ namespace plumbline::algebra
         }
   }
 
-  /// The first node of a row of nodes, of which there are n[1] n[2].
-  double *DirectStencil::padded_row(int row, unsigned int block) const
+  /// The first node of a row of nodes, of which there are n[1] in each plane.
+  double *DirectStencil::padded_row(int j, int k, unsigned int block) const
   {
-    const int j = row % n_[1], k = row / n_[1];
     return padded_.data() + block * block_size_ +
            ((k + reach_[2]) * height_ + (j + reach_[1])) * width_ + reach_[0];
   }
@@ -150,7 +150,7 @@ namespace plumbline::algebra
     for (int j = from; j < to; ++j)
       for (int i = 0; i < n_[0]; i += tile)
       {
-        const double *const u = padded_row(j, 0) + i;
+        const double *const u = padded_row(j % n_[1], j / n_[1], 0) + i;
         if constexpr (n_blocks == 1)
           tile_scalar(u, diagonal_[0], pairs_.data(), pairs_.data() + pairs_.size(), result);
         else if constexpr (n_blocks == 2)
@@ -168,10 +168,11 @@ namespace plumbline::algebra
 
   void DirectStencil::apply(const double *input, double *output) const
   {
-    const int n_rows = n_[1] * n_[2];
     for (unsigned int s = 0; s < n_blocks_; ++s)
-      for (int j = 0; j < n_rows; ++j, input += n_[0])
-        std::copy_n(input, n_[0], padded_row(j, s));
+      for (int k = -halo_; k < n_[2] + halo_; ++k)
+        for (int j = 0; j < n_[1]; ++j, input += n_[0])
+          std::copy_n(input, n_[0], padded_row(j, k, s));
+    const int n_rows = n_[1] * n_[2];
     dealii::parallel::apply_to_subranges(
         0, n_rows,
         [&](int from, int to)

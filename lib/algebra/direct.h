@@ -14,7 +14,8 @@ namespace plumbline::algebra
   {
   public:
     /// @pre stencil.is_even(), and 1 to 3 blocks
-    DirectStencil(const Stencil &stencil, std::array<int, 3> n);
+    /// @param has_halo  the input has the planes within reach along the third axis, too
+    DirectStencil(const Stencil &stencil, std::array<int, 3> n, bool has_halo = false);
     DirectStencil(const Stencil &stencil, std::array<int, 2> n)
         : DirectStencil(stencil, std::array<int, 3>{n[0], n[1], 1})
     {
@@ -22,7 +23,8 @@ namespace plumbline::algebra
 
     static bool fits(const Stencil &stencil);
 
-    /// @param input, output  shape (n_blocks, n[2], n[1], n[0]); input counts as 0 outside
+    /// @param input, output  shape (n_blocks, n[2], n[1], n[0]), the input with a halo of n[2] + 2
+    ///                       reaches[2] planes; it counts as 0 outside
     void apply(const double *input, double *output) const;
 
     /// Estimated seconds an apply takes on one core, to choose a backend (measured on one machine).
@@ -41,13 +43,14 @@ namespace plumbline::algebra
       std::array<double, 6> weight; ///< A_00, A_01, A_11, A_02, A_12, A_22
     };
 
-    double *padded_row(int row, unsigned int block) const;
+    double *padded_row(int j, int k, unsigned int block) const;
 
     template <unsigned int n_blocks>
     void apply_rows(int from, int to, double *output) const;
 
     unsigned int n_blocks_;
     std::array<int, 3> n_, reach_;
+    int halo_;                                ///< planes of the input below and above
     std::size_t width_, height_, block_size_; ///< of the padded field
     std::array<double, 6> diagonal_;
     std::vector<Pair> pairs_;     ///< of one or two blocks

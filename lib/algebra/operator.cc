@@ -68,24 +68,28 @@ namespace plumbline::algebra
                                                    std::uint64_t n_bonds, Mask mask,
                                                    OperatorBackend backend)
     {
-      if (backend == OperatorBackend::automatic)
-      {
-        const bool direct_is_faster =
-            DirectStencil::fits(stencil) &&
-            DirectStencil::estimated_seconds(stencil, n) <
-                Convolution::estimated_seconds(stencil.n_blocks(), stencil.reaches(), n);
-        backend = direct_is_faster ? OperatorBackend::direct : OperatorBackend::fft;
-      }
-      if (backend == OperatorBackend::fft)
+      if (!is_direct(stencil, n, backend))
         return std::make_unique<StencilOperator<Convolution>>(n_bonds, std::move(mask), "fft",
                                                               Convolution(stencil, n, 0));
-      if (!DirectStencil::fits(stencil))
-        throw InputError("Solver/operator = direct needs one node family with one to three "
-                         "components; choose automatic or fft");
       return std::make_unique<StencilOperator<DirectStencil>>(n_bonds, std::move(mask), "direct",
                                                               DirectStencil(stencil, n));
     }
   } // namespace
+
+  bool is_direct(const Stencil &stencil, const std::array<int, 3> &n, OperatorBackend backend)
+  {
+    if (backend == OperatorBackend::sparse)
+      throw InputError("Solver/operator = sparse is for lattices in the plane; choose automatic, "
+                       "direct or fft");
+    if (backend == OperatorBackend::automatic)
+      return DirectStencil::fits(stencil) &&
+             DirectStencil::estimated_seconds(stencil, n) <
+                 Convolution::estimated_seconds(stencil.n_blocks(), stencil.reaches(), n);
+    if (backend == OperatorBackend::direct && !DirectStencil::fits(stencil))
+      throw InputError("Solver/operator = direct needs one node family with one to three "
+                       "components; choose automatic or fft");
+    return backend == OperatorBackend::direct;
+  }
 
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::NodeSet &nodes,
                                           OperatorBackend backend)
@@ -100,9 +104,6 @@ namespace plumbline::algebra
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::BoxNodes &nodes,
                                           OperatorBackend backend)
   {
-    if (backend == OperatorBackend::sparse)
-      throw InputError("Solver/operator = sparse is for lattices in the plane; choose automatic, "
-                       "direct or fft");
     return make_shared_operator(stencil, nodes.n, stencil.n_entries() * nodes.n_free(),
                                 {nodes.is_free, stencil.n_blocks()}, backend);
   }

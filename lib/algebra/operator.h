@@ -40,6 +40,10 @@ namespace plumbline::algebra
   std::unique_ptr<Operator> make_operator(const Stencil &stencil, const geometry::BoxNodes &nodes,
                                           OperatorBackend backend = OperatorBackend::automatic);
 
+  /// Whether a stencil is applied directly on a box of these extents, not by transforms.
+  /// @throws InputError  a backend that cannot do it, see `make_operator`
+  bool is_direct(const Stencil &stencil, const std::array<int, 3> &n, OperatorBackend backend);
+
   /// The action of given values outside the free nodes on the free nodes: Σ_k A(k) g(i + k).
   /// @param data  shape (n_blocks, n[1] + 2 reach, n[0] + 2 reach), 0 at free positions
   Vector collar_action(const Stencil &stencil, const geometry::NodeSet &nodes,

@@ -205,26 +205,61 @@ namespace plumbline::analysis
     return std::move(*outcomes.front().solution);
   }
 
-  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem)
+  namespace
+  {
+    /// Of something that each rank has all of, one rank's part [first, second) of items of n
+    /// values.
+    void keep(std::vector<double> &values, const std::pair<std::size_t, std::size_t> &part,
+              std::size_t n)
+    {
+      values = {values.begin() + part.first * n, values.begin() + part.second * n};
+    }
+
+    /// Leave to this rank its share of a solution that it has all of.
+    void keep_share(SolutionInSpace &solution, const problem::Problem<3> &problem,
+                    const base::Communicator &ranks)
+    {
+      const auto &n_cells = problem.lattice.n_cells();
+      const std::size_t n_components = problem.n_components,
+                        of_plane = static_cast<std::size_t>(n_cells[0]) * n_cells[1];
+      const auto [first, second] = method::slabs_of_cells(problem.lattice, ranks).owned();
+      keep(solution.averages, {first * of_plane, second * of_plane}, n_components);
+      const auto nodes = ranks.owned_range(solution.nodes.size());
+      solution.nodes = {solution.nodes.begin() + nodes.first,
+                        solution.nodes.begin() + nodes.second};
+      keep(solution.nodal, nodes, n_components);
+      if (!solution.volumes.empty())
+        keep(solution.volumes, nodes, 1);
+    }
+  } // namespace
+
+  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem,
+                        const base::Communicator &ranks)
   {
     const base::MemoryGauge memory;
     base::CpuTimer timer;
     const auto discretisation = method.discretise_in_space(problem);
+    const bool is_distributed = ranks.n_ranks() > 1 && discretisation->distribute(ranks);
+    const auto of_all = [&](double seconds)
+    { return is_distributed ? ranks.sum(seconds) : seconds; };
     const auto system = discretisation->tangent();
     SolutionInSpace solution;
-    solution.cost.setup_seconds = timer.seconds();
+    solution.cost.setup_seconds = of_all(timer.seconds());
     timer.restart();
     const auto data = discretisation->data(problem);
     Vector u(data.load.size());
     const auto &settings = problem.settings.solver;
     const algebra::LinearSolve solved =
         system->solve(u, data.load, {settings.tolerance, settings.max_iterations});
-    solution.cost.solve_seconds = timer.seconds();
+    solution.cost.solve_seconds = of_all(timer.seconds());
     solution.cost.n_unknowns = discretisation->n_unknowns();
     solution.cost.n_bonds = solved.n_bonds;
     solution.cost.n_iterations = solved.n_iterations;
-    solution.cost.peak_bytes = memory.peak_bytes();
+    solution.cost.peak_bytes =
+        static_cast<std::size_t>(ranks.largest(static_cast<double>(memory.peak_bytes())));
     static_cast<method::FieldInSpace &>(solution) = data.field(u);
+    if (ranks.n_ranks() > 1 && !is_distributed)
+      keep_share(solution, problem, ranks);
     solution.diagnostics = discretisation->diagnostics();
     solution.diagnostics.relative_residual = solved.relative_residual;
     solution.diagnostics.operator_backend = solved.backend;

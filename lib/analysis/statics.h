@@ -46,9 +46,16 @@ namespace plumbline::analysis
   };
 
   /// In space, where entries are exact or the rule's own.
+  /// @param ranks  each gets its share of nodes and cells: nodal values are those of some nodes,
+  ///               averages those of the cells of its slab, see method::slabs_of_cells(); the
+  ///               function of the solution is collective. Where methods do not distribute their
+  ///               work, each rank does all of it.
+  /// @note Collective over ranks.
+  /// @pre one rank, or Ω is a box
   /// @pre method.can() has Capability::space
   /// @throws NumericalError  there is no solution
-  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem);
+  SolutionInSpace solve(const method::Method &method, const problem::Problem<3> &problem,
+                        const base::Communicator &ranks = base::Communicator::alone());
 
   /// One case.
   /// @throws NumericalError  there is no solution

@@ -1,7 +1,7 @@
 #include "method/box_discretisation.h"
 
+#include "algebra/slab_system.h"
 #include "base/error.h"
-#include "geometry/cell_counts.h"
 #include "method/stencil_rows.h"
 
 #include <algorithm>
@@ -18,15 +18,35 @@ namespace plumbline::method
   {
     using Point = dealii::Point<3>;
 
-    /// Positions of nodes within a margin around them, component by component, x fastest.
+    using geometry::CubeRange;
+
+    /// Positions of a range, component by component, x fastest.
     template <class Visit>
-    void for_each_position(const std::array<int, 3> &n, unsigned int n_components, int margin,
-                           const Visit &visit)
+    void for_each_position(const CubeRange &range, unsigned int n_components, const Visit &visit)
     {
       for (unsigned int c = 0; c < n_components; ++c)
-        geometry::for_each_index({-margin, -margin, -margin},
-                                 {n[0] + margin, n[1] + margin, n[2] + margin},
+        geometry::for_each_index(range.lower, range.upper,
                                  [&](const std::array<int, 3> &at) { visit(c, at); });
+    }
+
+    /// The place of a position's component in arrays over a range.
+    std::size_t place_in(const CubeRange &range, std::size_t component,
+                         const std::array<int, 3> &at)
+    {
+      std::size_t result = component;
+      for (unsigned int d = 3; d-- > 0;)
+        result = result * (range.upper[d] - range.lower[d]) + at[d] - range.lower[d];
+      return result;
+    }
+
+    CubeRange with_margin(CubeRange range, int margin)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        range.lower[d] -= margin;
+        range.upper[d] += margin;
+      }
+      return range;
     }
 
     /// Whether a position is so near to Ω that a free node or the average of a cell needs its
@@ -54,40 +74,49 @@ namespace plumbline::method
       std::optional<geometry::CellCounts> cells_; ///< none: Ω is a box, and all positions are near
     };
 
-    /// The constraint around the nodes, less the middle of its range: the operator does not see a
-    /// constant, but the solver's tolerance and rounding would.
+    /// The constraint around the nodes of this rank, less the middle of its range: the operator
+    /// does not see a constant, but the solver's tolerance and rounding would.
     struct Surroundings
     {
-      std::vector<double> values; ///< 0 where it is not needed
-      std::vector<double> middle; ///< of each component
+      CubeRange range;            ///< of positions
+      std::vector<double> values; ///< shape (n_components, range), 0 where it is not needed
+      std::vector<double> middle; ///< of each component, the same on all ranks
     };
 
+    /// @param ranks     that have other parts of it
     /// @param place     of a position
     /// @param is_given  the constraint is needed there
     template <class IsGiven>
-    Surroundings surroundings(const problem::Problem<3> &problem, const std::array<int, 3> &n,
-                              int margin,
+    Surroundings surroundings(const problem::Problem<3> &problem, const CubeRange &range,
+                              const base::Communicator &ranks,
                               const std::function<Point(const std::array<int, 3> &)> &place,
                               const IsGiven &is_given)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();
-      Surroundings around;
+      Surroundings around{range, {}, {}};
+      around.values.resize(place_in(range, problem.n_components, range.lower));
       std::vector<double> low(problem.n_components, infinity),
           high(problem.n_components, -infinity);
-      for_each_position(n, problem.n_components, margin,
+      auto value = around.values.begin();
+      for_each_position(range, problem.n_components,
                         [&](unsigned int c, const std::array<int, 3> &at)
                         {
-                          around.values.push_back(0);
-                          if (!is_given(at))
-                            return;
-                          around.values.back() = problem.constraint.value(place(at), c);
-                          low[c] = std::min(low[c], around.values.back());
-                          high[c] = std::max(high[c], around.values.back());
+                          if (is_given(at))
+                          {
+                            *value = problem.constraint.value(place(at), c);
+                            low[c] = std::min(low[c], *value);
+                            high[c] = std::max(high[c], *value);
+                          }
+                          ++value;
                         });
       for (unsigned int c = 0; c < problem.n_components; ++c)
+      {
+        low[c] = -ranks.largest(-low[c]);
+        high[c] = ranks.largest(high[c]);
         around.middle.push_back(low[c] + (high[c] - low[c]) / 2);
-      auto value = around.values.begin();
-      for_each_position(n, problem.n_components, margin,
+      }
+      value = around.values.begin();
+      for_each_position(range, problem.n_components,
                         [&](unsigned int c, const std::array<int, 3> &at)
                         {
                           if (is_given(at))
@@ -97,26 +126,44 @@ namespace plumbline::method
       return around;
     }
 
-    /// Solution and constraint at positions -1 ... n.
-    std::vector<double> merge(const geometry::BoxNodes &nodes, const algebra::Vector &u,
-                              const Surroundings &around, int margin)
+    /// The positions that the cells of this rank need: the nodes at their centres or vertices, and
+    /// along x and y one more on each side.
+    CubeRange positions_of_cells(NodePlace nodes, const std::array<int, 3> &n,
+                                 const base::Slabs::Range &planes)
     {
-      const std::array<int, 3> &n = nodes.n;
-      const auto index = [&](unsigned int c, const std::array<int, 3> &at, int width)
-      {
-        std::size_t result = c;
-        for (unsigned int d = 3; d-- > 0;)
-          result = result * (n[d] + 2 * width) + at[d] + width;
-        return result;
-      };
+      const int below = nodes == NodePlace::vertices ? 1 : 0; // cell k: vertices k - 1 and k
+      return {{-1, -1, planes.first - below},
+              {n[0] + 1, n[1] + 1, std::max(planes.first - below, planes.second)}};
+    }
+
+    /// Solution and constraint at these positions.
+    /// @param u  this rank's
+    std::vector<double> merge(const geometry::BoxNodes &nodes, const base::Slabs &slabs,
+                              const algebra::Vector &u, const Surroundings &around,
+                              const std::function<CubeRange(unsigned int rank)> &wanted)
+    {
+      const CubeRange range = wanted(slabs.ranks().rank()),
+                      known = {{0, 0, range.lower[2]}, {nodes.n[0], nodes.n[1], range.upper[2]}};
+      const std::size_t plane_size = static_cast<std::size_t>(nodes.n[0]) * nodes.n[1];
       std::vector<double> values;
-      for_each_position(n, static_cast<unsigned int>(around.middle.size()), 1,
-                        [&](unsigned int c, const std::array<int, 3> &at)
-                        {
-                          values.push_back(around.middle[c] +
-                                           (nodes.free(at) ? u[index(c, at, 0)]
-                                                           : around.values[index(c, at, margin)]));
-                        });
+      values.reserve(place_in(range, around.middle.size(), range.lower));
+      for (unsigned int c = 0; c < around.middle.size(); ++c)
+      {
+        const std::size_t n_own = plane_size * slabs.n_owned();
+        std::vector<double> own(u.begin() + c * n_own, u.begin() + (c + 1) * n_own);
+        own = slabs.fetch(own, plane_size,
+                          [&](unsigned int rank) -> base::Slabs::Range {
+                            return {wanted(rank).lower[2], wanted(rank).upper[2]};
+                          });
+        for_each_position(range, 1,
+                          [&](unsigned int, const std::array<int, 3> &at)
+                          {
+                            values.push_back(around.middle[c] +
+                                             (nodes.free(at)
+                                                  ? own[place_in(known, 0, at)]
+                                                  : around.values[place_in(around.range, c, at)]));
+                          });
+      }
       return values;
     }
 
@@ -124,33 +171,37 @@ namespace plumbline::method
     class OnCells
     {
     public:
-      /// @param values  solution and, around it, the constraint at positions -1 ... n of each axis:
-      /// shape (n_components, n[2] + 2, n[1] + 2, n[0] + 2)
-      OnCells(const geometry::CubeLattice &lattice, NodePlace nodes, const std::array<int, 3> &n,
-              std::vector<double> values)
-          : lattice_(lattice), n_{n[0] + 2, n[1] + 2, n[2] + 2}, values_(std::move(values)),
-            first_(nodes == NodePlace::vertices ? 0 : 1),
+      /// @param slabs   of cells
+      /// @param range   positions_of_cells() of this rank
+      /// @param values  solution and, around it, the constraint: shape (n_components, range)
+      OnCells(const geometry::CubeLattice &lattice, NodePlace nodes, const base::Slabs &slabs,
+              const CubeRange &range, std::vector<double> values)
+          : lattice_(lattice), slabs_(slabs), is_distributed_(slabs.ranks().n_ranks() > 1),
+            range_(range), values_(std::move(values)),
+            first_(nodes == NodePlace::vertices ? -1 : 0),
             n_along_(nodes == NodePlace::vertices ? 2 : 1)
       {
       }
 
-      /// Shape (n_cells, n_components).
-      std::vector<double> averages() const
+      /// Of this rank's cells, shape (n_cells, n_components).
+      std::vector<double> averages(unsigned int n_components) const
       {
         const double weight = 1. / static_cast<double>(n_along_ * n_along_ * n_along_);
-        const std::size_t n_components = values_.size() / block();
+        const auto &n = lattice_.n_cells();
+        const auto [first, second] = slabs_.owned();
         std::vector<double> result;
-        lattice_.for_each_cell(
-            [&](const std::array<int, 3> &cell)
-            {
-              for (std::size_t c = 0; c < n_components; ++c)
-              {
-                double sum = 0;
-                for_each_corner([&](const std::array<int, 3> &corner)
-                                { sum += values_[at(c, cell, corner)]; });
-                result.push_back(weight * sum);
-              }
-            });
+        for_each_position({{0, 0, first}, {n[0], n[1], second}}, 1,
+                          [&](unsigned int, const std::array<int, 3> &cell)
+                          {
+                            for (unsigned int c = 0; lattice_.is_inside(cell) && c < n_components;
+                                 ++c)
+                            {
+                              double sum = 0;
+                              for_each_corner([&](const std::array<int, 3> &corner)
+                                              { sum += values_[at(c, cell, corner)]; });
+                              result.push_back(weight * sum);
+                            }
+                          });
         return result;
       }
 
@@ -159,15 +210,15 @@ namespace plumbline::method
       {
         const auto cell = cell_of(x);
         double sum = 0;
-        for_each_corner(
-            [&](const std::array<int, 3> &corner)
-            {
-              double weight = 1;
-              for (unsigned int d = 0; d < 3 && n_along_ == 2; ++d)
-                weight *= factor(x, cell, corner, d);
-              sum += weight * values_[at(component, cell, corner)];
-            });
-        return sum;
+        for_each_corner_owned(cell,
+                              [&](const std::array<int, 3> &corner)
+                              {
+                                double weight = 1;
+                                for (unsigned int d = 0; d < 3 && n_along_ == 2; ++d)
+                                  weight *= factor(x, cell, corner, d);
+                                sum += weight * values_[at(component, cell, corner)];
+                              });
+        return of_owner(sum);
       }
 
       /// Of a trilinear function.
@@ -176,17 +227,20 @@ namespace plumbline::method
       {
         const auto cell = cell_of(x);
         dealii::Tensor<1, 3> sum;
-        for_each_corner(
-            [&](const std::array<int, 3> &corner)
-            {
-              const double u = values_[at(component, cell, corner)] / lattice_.h();
-              for (unsigned int d = 0; d < 3; ++d)
-              {
-                const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
-                sum[d] += (corner[d] == 0 ? -u : u) * factor(x, cell, corner, a) *
-                          factor(x, cell, corner, b);
-              }
-            });
+        for_each_corner_owned(cell,
+                              [&](const std::array<int, 3> &corner)
+                              {
+                                const double u =
+                                    values_[at(component, cell, corner)] / lattice_.h();
+                                for (unsigned int d = 0; d < 3; ++d)
+                                {
+                                  const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
+                                  sum[d] += (corner[d] == 0 ? -u : u) * factor(x, cell, corner, a) *
+                                            factor(x, cell, corner, b);
+                                }
+                              });
+        for (unsigned int d = 0; d < 3; ++d)
+          sum[d] = of_owner(sum[d]);
         return sum;
       }
 
@@ -211,7 +265,11 @@ namespace plumbline::method
         return corner[d] == 0 ? 1 - s : s;
       }
 
-      std::size_t block() const { return static_cast<std::size_t>(n_[0]) * n_[1] * n_[2]; }
+      /// What the rank that owns the cell found, the others 0.
+      double of_owner(double found) const
+      {
+        return is_distributed_ ? slabs_.ranks().sum(found) : found;
+      }
 
       template <class Visit>
       void for_each_corner(const Visit &visit) const
@@ -219,18 +277,26 @@ namespace plumbline::method
         geometry::for_each_index({0, 0, 0}, {n_along_, n_along_, n_along_}, visit);
       }
 
+      template <class Visit>
+      void for_each_corner_owned(const std::array<int, 3> &cell, const Visit &visit) const
+      {
+        if (slabs_.owns(cell[2]))
+          for_each_corner(visit);
+      }
+
       /// Of a cell's own node, or its vertices from its lower one on.
       std::size_t at(std::size_t component, const std::array<int, 3> &cell,
                      const std::array<int, 3> &corner) const
       {
-        return component * block() +
-               geometry::number_within({cell[0] + first_ + corner[0], cell[1] + first_ + corner[1],
-                                        cell[2] + first_ + corner[2]},
-                                       n_);
+        return place_in(range_, component,
+                        {cell[0] + first_ + corner[0], cell[1] + first_ + corner[1],
+                         cell[2] + first_ + corner[2]});
       }
 
       geometry::CubeLattice lattice_;
-      std::array<int, 3> n_;
+      base::Slabs slabs_; ///< of cells
+      bool is_distributed_;
+      CubeRange range_;
       std::vector<double> values_;
       int first_, n_along_;
     };
@@ -266,7 +332,7 @@ namespace plumbline::method
         << "<DataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"" << n_components
         << "\" format=\"ascii\">\n";
     auto average = averages.begin();
-    for_each_position(n, 1, 0,
+    for_each_position({{}, n}, 1,
                       [&](unsigned int, const std::array<int, 3> &cell)
                       {
                         for (unsigned int c = 0; c < n_components; ++c)
@@ -287,8 +353,9 @@ namespace plumbline::method
       : lattice_(problem.lattice), node_place_(nodes),
         nodes_(nodes == NodePlace::vertices ? geometry::inner_vertices(lattice_)
                                             : geometry::cell_centres(lattice_)),
-        n_components_(problem.n_components), stencil_(std::move(stencil)),
-        backend_(problem.settings.solver.operator_backend)
+        cell_slabs_(slabs_of_cells(lattice_, base::Communicator::alone())),
+        node_slabs_(cell_slabs_.with_planes(nodes_.n[2])), n_components_(problem.n_components),
+        stencil_(std::move(stencil)), backend_(problem.settings.solver.operator_backend)
   {
     if (nodes_.n_free() == 0)
       throw NumericalError("Domain is one cell thick everywhere, so that no vertex is free; choose "
@@ -310,13 +377,30 @@ namespace plumbline::method
     return n_components_ * nodes_.n_free();
   }
 
+  bool BoxDiscretisation::distribute(const base::Communicator &ranks)
+  {
+    // a single row of nodes in each plane: FFTW has no transform that moves modes to slabs of rows
+    if (!lattice_.is_box() || nodes_.n[1] == 1)
+      return false;
+    cell_slabs_ = slabs_of_cells(lattice_, ranks);
+    node_slabs_ = cell_slabs_.with_planes(nodes_.n[2]);
+    return true;
+  }
+
+  CubeRange BoxDiscretisation::own_nodes() const
+  {
+    const auto [first, second] = node_slabs_.owned();
+    return {{0, 0, first}, {nodes_.n[0], nodes_.n[1], second}};
+  }
+
   algebra::Vector BoxDiscretisation::tested(const problem::Field<3> &field) const
   {
+    const CubeRange own = own_nodes();
     physics::AxisFunctionals functionals;
     for (unsigned int d = 0; d < 3; ++d)
-      for (int i = 0; i < nodes_.n[d]; ++i)
+      for (int i = own.lower[d]; i < own.upper[d]; ++i)
         functionals[d].push_back(load_functional(coordinate(d, i)));
-    Vector result(static_cast<Vector::size_type>(n_components_ * nodes_.n_positions()));
+    Vector result(static_cast<Vector::size_type>(place_in(own, n_components_, own.lower)));
     auto value = result.begin();
     for (unsigned int c = 0; c < n_components_; ++c)
     {
@@ -331,7 +415,7 @@ namespace plumbline::method
   {
     const Nearness is_near(lattice_, node_place_, margin);
     std::vector<double> values;
-    for_each_position(nodes_.n, n_components_, margin,
+    for_each_position(with_margin({{}, nodes_.n}, margin), n_components_,
                       [&](unsigned int c, const std::array<int, 3> &at)
                       {
                         values.push_back(!nodes_.free(at) && is_near(at)
@@ -344,7 +428,7 @@ namespace plumbline::method
   std::vector<Point> BoxDiscretisation::free_points() const
   {
     std::vector<Point> points;
-    for_each_position(nodes_.n, 1, 0,
+    for_each_position({{}, nodes_.n}, 1,
                       [&](unsigned int, const std::array<int, 3> &at)
                       {
                         if (nodes_.free(at))
@@ -357,31 +441,34 @@ namespace plumbline::method
   {
     const int margin = std::max(1, stencil_.reach());
     const Nearness is_near(lattice_, node_place_, margin);
+    const CubeRange own = own_nodes();
     const auto around = std::make_shared<const Surroundings>(surroundings(
-        problem, nodes_.n, margin, [this](const std::array<int, 3> &at) { return place(at); },
+        problem, with_margin(own, margin), node_slabs_.ranks(),
+        [this](const std::array<int, 3> &at) { return place(at); },
         [&](const std::array<int, 3> &at) { return !nodes_.free(at) && is_near(at); }));
     Data result;
     result.load = tested(problem.load);
-    result.load -= collar_action(stencil_, nodes_, around->values);
-    result.field = [this, around, margin](const Vector &u)
+    const geometry::BoxNodes of_rank = {{nodes_.n[0], nodes_.n[1], node_slabs_.n_owned()},
+                                        nodes_.is_free};
+    result.load -= collar_action(stencil_, of_rank, around->values);
+    result.field = [this, own, around](const Vector &u)
     {
       FieldInSpace field;
-      std::size_t i = 0;
-      for_each_position(nodes_.n, 1, 0,
+      for_each_position(own, 1,
                         [&](unsigned int, const std::array<int, 3> &at)
                         {
-                          if (nodes_.free(at))
-                          {
-                            field.nodes.push_back(place(at));
-                            for (unsigned int c = 0; c < n_components_; ++c)
-                              field.nodal.push_back(around->middle[c] +
-                                                    u[c * nodes_.n_positions() + i]);
-                          }
-                          ++i;
+                          if (!nodes_.free(at))
+                            return;
+                          field.nodes.push_back(place(at));
+                          for (unsigned int c = 0; c < n_components_; ++c)
+                            field.nodal.push_back(around->middle[c] + u[place_in(own, c, at)]);
                         });
-      const auto on_cells = std::make_shared<const OnCells>(lattice_, node_place_, nodes_.n,
-                                                            merge(nodes_, u, *around, margin));
-      field.averages = on_cells->averages();
+      const auto wanted = [this](unsigned int rank)
+      { return positions_of_cells(node_place_, nodes_.n, cell_slabs_.owned(rank)); };
+      const auto on_cells = std::make_shared<const OnCells>(
+          lattice_, node_place_, cell_slabs_, wanted(cell_slabs_.ranks().rank()),
+          merge(nodes_, node_slabs_, u, *around, wanted));
+      field.averages = on_cells->averages(n_components_);
       field.value = [on_cells](const Point &x, unsigned int component)
       { return (*on_cells)(x, component); };
       if (node_place_ == NodePlace::vertices)
@@ -424,6 +511,8 @@ namespace plumbline::method
 
   std::unique_ptr<algebra::LinearSystem> BoxDiscretisation::tangent() const
   {
+    if (node_slabs_.ranks().n_ranks() > 1)
+      return std::make_unique<algebra::SlabSystem>(stencil_, nodes_.n, node_slabs_, backend_);
     return std::make_unique<algebra::StencilSystem>(stencil_, nodes_, backend_);
   }
 } // namespace plumbline::method

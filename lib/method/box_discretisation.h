@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/cell_counts.h"
 #include "method/discretisation_in_space.h"
 #include "method/linear_equations.h"
 
@@ -35,6 +36,10 @@ namespace plumbline::method
                       algebra::Stencil stencil);
 
     std::size_t n_unknowns() const override;
+
+    /// Where Ω is a box.
+    bool distribute(const base::Communicator &ranks) override;
+
     Data data(const problem::Problem<3> &problem) const override;
     LinearEquations<3> equations(const problem::Problem<3> &problem) const override;
 
@@ -62,7 +67,11 @@ namespace plumbline::method
     double coordinate(unsigned int axis, int position) const;
     dealii::Point<3> place(const std::array<int, 3> &position) const;
 
-    /// A field by the method's own test functions, 0 where nodes are not free.
+    /// The nodes of this rank.
+    geometry::CubeRange own_nodes() const;
+
+    /// A field by the method's own test functions at the nodes of this rank, 0 where they are not
+    /// free.
     Vector tested(const problem::Field<3> &field) const;
 
     /// The constraint within a margin around the nodes, 0 where they are free or Ω is far away:
@@ -73,7 +82,9 @@ namespace plumbline::method
 
     geometry::CubeLattice lattice_;
     NodePlace node_place_;
-    geometry::BoxNodes nodes_;
+    geometry::BoxNodes nodes_; ///< of all ranks
+    base::Slabs cell_slabs_;   ///< one slab, unless they are distributed
+    base::Slabs node_slabs_;
     unsigned int n_components_;
     algebra::Stencil stencil_;
     algebra::OperatorBackend backend_;

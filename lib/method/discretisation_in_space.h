@@ -2,6 +2,7 @@
 
 #include "algebra/linear_system.h"
 #include "algebra/symbol.h"
+#include "base/slabs.h"
 #include "method/diagnostics.h"
 #include "method/equation_of_motion.h"
 #include "problem/in_space.h"
@@ -31,6 +32,14 @@ namespace plumbline::method
         gradient = {};
   };
 
+  /// The planes of cells z = constant of the bounding box of Ω, distributed over ranks. Nodes at
+  /// centres of cells have the same slabs, inner vertices those of the cells below them.
+  inline base::Slabs slabs_of_cells(const geometry::CubeLattice &lattice,
+                                    const base::Communicator &ranks)
+  {
+    return {ranks, lattice.n_cells()[2]};
+  }
+
   /// The discretisation of a problem in space; the counterpart of Discretisation.
   class DiscretisationInSpace
   {
@@ -39,7 +48,18 @@ namespace plumbline::method
 
     virtual ~DiscretisationInSpace() = default;
 
-    virtual std::size_t n_unknowns() const = 0;
+    virtual std::size_t n_unknowns() const = 0; ///< of all ranks
+
+    /// Leave to each rank a slab of the planes z = constant: from now on data(), its field and
+    /// tangent() are about this rank's slab of the nodes and of the cells, see
+    /// slabs_of_cells(). Values at a point are collective then.
+    /// @return  false: this discretisation cannot, and each rank has all as before
+    /// @note Collective.
+    virtual bool distribute(const base::Communicator &ranks)
+    {
+      (void)ranks;
+      return false;
+    }
 
     /// What one case brings: its load less what the constraint adds to the force.
     struct Data

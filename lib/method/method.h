@@ -30,6 +30,7 @@ namespace plumbline::method
     bool is_body = false;        ///< with a free boundary
     bool has_dilatation = false; ///< so that bonds are as long as two horizons
     bool is_scattered = false;   ///< meshfree nodes in a box in space that are not its lattice's
+    bool is_box = false;         ///< in space: neither a union of boxes nor one with holes
 
     bool is_lattice() const { return extents[0] > 0; }
     double reach() const { return has_dilatation ? 2 * level.horizon : level.horizon; }
@@ -94,6 +95,10 @@ namespace plumbline::method
     /// within a factor of 2 where it is more than some 50 MB, for one rank; 0 where it is little.
     /// Not in it: the factors of a direct solver.
     virtual double expected_bytes(const ProblemSize &) const { return 0; }
+
+    /// Whether ranks share its static solution, see DiscretisationInSpace::distribute. A rank takes
+    /// the expected_bytes() of its slab then.
+    virtual bool is_distributed_in_space(const ProblemSize &) const { return false; }
 
     /// The rate at which field and averages tend to a smooth solution at a fixed horizon, at least:
     /// p + 1 of Galerkin methods whose kernel is integrable. For error estimates.

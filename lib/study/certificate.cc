@@ -53,7 +53,8 @@ namespace plumbline::study
     ErrorEstimate estimate_of(const CaseInSpace &one, const method::Method &method,
                               const analysis::SolutionInSpace &solution, const Points<3> &points)
     {
-      ErrorEstimate estimate = estimate_in_space(method, one.problem, solution, points);
+      ErrorEstimate estimate =
+          estimate_in_space(method, one.problem, solution, base::Communicator::alone(), points);
       estimate.field_rate = estimate.rate;
       return estimate;
     }

@@ -1,6 +1,7 @@
 #include "study/estimate_in_space.h"
 
 #include "geometry/tetrahedral_domain.h"
+#include "study/slabs_in_space.h"
 
 #include <algorithm>
 #include <array>
@@ -12,30 +13,45 @@ namespace plumbline::study
   {
     /// Averages over the cells of a problem, each of eight cells of h / 2.
     /// @param averages  over the cells of h / 2
-    std::vector<double> coarsened(const std::vector<double> &averages,
-                                  const problem::Problem<3> &problem)
+    std::vector<double> coarsened(std::vector<double> averages, const problem::Problem<3> &problem,
+                                  const base::Communicator &ranks)
     {
       constexpr double part = 1. / 8;
-      const geometry::CubeLattice &coarse = problem.lattice;
+      const geometry::CubeLattice &coarse = problem.lattice,
+                                  &fine = coarse.at_spacing(problem.h() / 2);
       const unsigned int n_components = problem.n_components;
       const auto &n = coarse.n_cells();
-      std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * n[2] * n_components), result;
+      const base::Slabs slabs = method::slabs_of_cells(coarse, ranks);
+      const auto halves = [&slabs](unsigned int rank) -> base::Slabs::Range {
+        return {2 * slabs.owned(rank).first, 2 * slabs.owned(rank).second};
+      };
+      const auto planes = slabs.owned(), fine_planes = halves(ranks.rank());
+      if (ranks.n_ranks() > 1)
+      {
+        constexpr std::size_t n_fine = 4; // cells in a plane for each coarse one
+        averages = method::slabs_of_cells(fine, ranks)
+                       .fetch(averages, n_fine * plane_size(problem), halves);
+      }
+      std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * slabs.n_owned() *
+                               n_components),
+          result;
+      const auto place = [&](const std::array<int, 3> &cell) {
+        return coarse.number({cell[0], cell[1], cell[2] - planes.first}) * n_components;
+      };
       auto average = averages.begin();
-      coarse.at_spacing(problem.h() / 2)
-          .for_each_cell(
-              [&](const std::array<int, 3> &cell)
-              {
-                const std::size_t whole = coarse.number({cell[0] / 2, cell[1] / 2, cell[2] / 2});
-                for (unsigned int c = 0; c < n_components; ++c)
-                  sums[whole * n_components + c] += part * *average++;
-              });
-      coarse.for_each_cell(
-          [&](const std::array<int, 3> &cell)
-          {
-            const auto sum = sums.begin() + static_cast<std::ptrdiff_t>(coarse.number(cell)) *
-                                                static_cast<std::ptrdiff_t>(n_components);
-            result.insert(result.end(), sum, sum + n_components);
-          });
+      for_each_cell(fine, fine_planes,
+                    [&](const std::array<int, 3> &cell)
+                    {
+                      const std::size_t whole = place({cell[0] / 2, cell[1] / 2, cell[2] / 2});
+                      for (unsigned int c = 0; c < n_components; ++c)
+                        sums[whole + c] += part * *average++;
+                    });
+      for_each_cell(coarse, planes,
+                    [&](const std::array<int, 3> &cell)
+                    {
+                      const auto sum = sums.begin() + static_cast<std::ptrdiff_t>(place(cell));
+                      result.insert(result.end(), sum, sum + n_components);
+                    });
       return result;
     }
 
@@ -71,17 +87,18 @@ namespace plumbline::study
     return geometry::volume(*problem.mesh) / static_cast<double>(problem.lattice.size());
   }
 
-  double averages_l2(const problem::Problem<3> &problem, const std::vector<double> &a,
-                     const std::vector<double> &b)
+  double averages_l2(const problem::Problem<3> &problem, const base::Communicator &ranks,
+                     const std::vector<double> &a, const std::vector<double> &b)
   {
     double squares = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
       squares += std::pow(a[i] - (b.empty() ? 0 : b[i]), 2);
-    return std::sqrt(cell_volume(problem) * squares);
+    return std::sqrt(cell_volume(problem) * ranks.sum(squares));
   }
 
   ErrorEstimate estimate_in_space(const Method &method, const problem::Problem<3> &problem,
                                   const analysis::SolutionInSpace &solution,
+                                  const base::Communicator &ranks,
                                   const std::vector<dealii::Point<3>> &points)
   {
     ErrorEstimate estimate;
@@ -89,17 +106,19 @@ namespace plumbline::study
     estimate.h = problem.h();
     estimate.horizon = problem.horizon();
     const analysis::SolutionInSpace fine =
-        analysis::solve(method, at_spacing(problem, problem.h() / 2));
-    estimate.h_change = averages_l2(problem, solution.averages, coarsened(fine.averages, problem));
+        analysis::solve(method, at_spacing(problem, problem.h() / 2), ranks);
+    estimate.h_change =
+        averages_l2(problem, ranks, solution.averages, coarsened(fine.averages, problem, ranks));
     if (problem::has_doubled(problem))
     {
       const problem::Problem<3> coarse = at_spacing(problem, 2 * problem.h());
-      estimate.coarse_change = averages_l2(coarse, analysis::solve(method, coarse).averages,
-                                           coarsened(solution.averages, coarse));
+      estimate.coarse_change =
+          averages_l2(coarse, ranks, analysis::solve(method, coarse, ranks).averages,
+                      coarsened(solution.averages, coarse, ranks));
     }
     const double q = contraction(estimate.coarse_change, estimate.h_change,
                                  std::pow(.5, method.order())),
-                 size = averages_l2(problem, solution.averages);
+                 size = averages_l2(problem, ranks, solution.averages);
     estimate.rate = -std::log2(q);
     estimate.estimate = error_of_change(estimate.h_change, q) +
                         solver_error(problem.settings.solver.tolerance, size);

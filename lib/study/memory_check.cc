@@ -30,9 +30,11 @@ namespace plumbline::study
       method::ProblemSize size = size_of(scene, level);
       if (scene.domain.is_in_space())
       {
-        const auto n = scene.domain.cubes(level.h).n_cells();
+        const geometry::CubeLattice lattice = scene.domain.cubes(level.h);
+        const auto &n = lattice.n_cells();
         size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
         size.depth = n[2];
+        size.is_box = lattice.is_box();
         size.is_scattered = !scene.methods.nodes.are_lattice_centres();
         return size;
       }
@@ -101,10 +103,21 @@ namespace plumbline::study
       return size;
     }
 
+    /// Processes that run a scene at once.
+    struct Processes
+    {
+      unsigned int n_jobs;  ///< that do the same, see base::require_memory
+      unsigned int n_ranks; ///< that share what is distributed
+    };
+
     /// @param more  bytes, besides those of a static solution
     void require(const Method &method, const method::ProblemSize &size, const std::string &what,
-                 unsigned int n_jobs, double more = 0)
+                 const Processes &processes, double more = 0)
     {
+      method::ProblemSize of_rank = size;
+      const bool is_shared = processes.n_ranks > 1 && method.is_distributed_in_space(size);
+      if (is_shared)
+        of_rank.depth = std::ceil(size.depth / processes.n_ranks);
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
@@ -114,26 +127,29 @@ namespace plumbline::study
              << " cells)";
       else
         text << "some " << std::round(size.n_cells) << " cells)";
+      if (is_shared)
+        text << " on each of " << processes.n_ranks << " ranks";
       const bool is_of_centroids =
           size.depth > 0 && size.n_cells > 0 && method.family() == method::MethodFamily::meshfree;
       base::require_memory(
-          method.expected_bytes(is_of_centroids ? of_centroids(size) : size) + more, text.str(),
+          method.expected_bytes(is_of_centroids ? of_centroids(of_rank) : of_rank) + more,
+          text.str(),
           "choose a larger h or a smaller horizon (Study/h, Study/m, "
           "Study/horizon), run the first levels only (--levels), or leave this "
           "method out (--methods)",
-          n_jobs);
+          processes.n_jobs);
     }
 
     /// With what an estimate of its error solves besides.
     void require_estimate(const scene::Scene &scene, const Method &method,
-                          const method::ProblemSize &size, unsigned int n_jobs)
+                          const method::ProblemSize &size, const Processes &processes)
     {
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
-        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_jobs);
+        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what, processes);
       if (const auto higher = method.higher_degree();
           higher && size.is_lattice() && !scene.domain.is_in_space())
-        require(*higher, size, what, n_jobs);
+        require(*higher, size, what, processes);
     }
 
     /// Of a level, measured: the coarsest one, from which that of finer ones follows.
@@ -167,20 +183,20 @@ namespace plumbline::study
 
     /// The first error of a method that does not fit.
     void require_all(const scene::Scene &scene, const Methods &methods,
-                     const method::ProblemSize &size, unsigned int n_jobs)
+                     const method::ProblemSize &size, const Processes &processes)
     {
       for (const auto &method : methods)
       {
-        require(*method, size, "", n_jobs);
+        require(*method, size, "", processes);
         if (is_estimated(scene, *method) || (method->name() == scene.reference.method &&
                                              scene.reference.estimate != scene::Estimate::none))
-          require_estimate(scene, *method, size, n_jobs);
+          require_estimate(scene, *method, size, processes);
       }
     }
   } // namespace
 
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    unsigned int n_levels, unsigned int n_jobs)
+                    unsigned int n_levels, unsigned int n_jobs, unsigned int n_ranks)
   {
     Methods all = methods;
     if (scene.reference.method)
@@ -194,15 +210,24 @@ namespace plumbline::study
       for (std::size_t i = 0; i < n; ++i)
         try
         {
-          require_all(scene, all, at_level(coarse, series.levels[i]), n_jobs);
+          require_all(scene, all, at_level(coarse, series.levels[i]), {n_jobs, n_ranks});
         }
         catch (const InputError &)
         {
           if (follows_h(scene, coarse))
             throw;
-          require_all(scene, all, of_same_cells(coarse, series.levels[i]), n_jobs);
+          require_all(scene, all, of_same_cells(coarse, series.levels[i]), {n_jobs, n_ranks});
         }
     }
+  }
+
+  Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods)
+  {
+    const method::ProblemSize size = lattice_size(scene, scene.study.series.front().levels.front());
+    Methods repeated;
+    std::copy_if(methods.begin(), methods.end(), std::back_inserter(repeated),
+                 [&](const auto &method) { return !method->is_distributed_in_space(size); });
+    return repeated;
   }
 
   void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
@@ -218,7 +243,7 @@ namespace plumbline::study
           const method::ProblemSize size = lattice_size(scene, series.levels[i]);
           const double n_unknowns =
               size.n_components * size.extents[0] * size.extents[1] * size.depth;
-          require(*method, size, "transient analysis by ", n_jobs,
+          require(*method, size, "transient analysis by ", {n_jobs, 1},
                   sizeof(double) * n_vectors * n_unknowns);
         }
   }

@@ -32,15 +32,20 @@ namespace plumbline::study
   /// would not fit, a file .geo is meshed at half of its h, too: its cells may not follow h.
   /// @param n_levels  the first so many of each series; 0: all
   /// @param n_jobs    processes that each take it side by side (--jobs)
+  /// @param n_ranks   that share what methods distribute in space
   /// @throws InputError  naming method, level, the memory it needs and what there is
   void check_memory(const scene::Scene &scene, const Methods &methods, const Methods &available,
-                    unsigned int n_levels, unsigned int n_jobs = 1);
+                    unsigned int n_levels, unsigned int n_jobs = 1, unsigned int n_ranks = 1);
 
   /// The same of transient analyses in space: their vectors besides what a static solution takes.
   /// Accuracy: within a factor of 2 of the memory measured at 64³ and 96³ cells.
   /// @pre scene.domain.is_in_space()
   void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
                               unsigned int n_levels, unsigned int n_jobs = 1);
+
+  /// Those of the methods whose static solutions in space are not distributed over ranks.
+  /// @pre scene.domain.is_in_space()
+  Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods);
 
   /// Check that meshes, nodes and cracks of all levels can be used, and that expressions are finite
   /// in Ω and its collar on a grid of samples: for all cases and series, at the level whose ball

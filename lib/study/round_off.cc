@@ -47,7 +47,8 @@ namespace plumbline::study
 
     /// @param is_shifted  a constant is taken off before it is solved
     template <class Problem, class OneSolution>
-    double round_off(const Problem &problem, const OneSolution &solution, bool is_shifted)
+    double round_off(const Problem &problem, const OneSolution &solution, bool is_shifted,
+                     const base::Communicator &ranks)
     {
       constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
       const double a = width(problem) / 2 + problem.horizon();
@@ -56,25 +57,30 @@ namespace plumbline::study
       double largest = 0;
       for (const double average : solution.averages)
         largest = std::max(largest, std::abs(average));
+      largest = ranks.largest(largest);
       const double residual = std::max(solution.diagnostics.relative_residual, epsilon);
       const double solved_for =
-          is_shifted ? variation(problem.n_components, solution.averages) : largest;
+          is_shifted ? variation(problem.n_components, solution.averages, ranks) : largest;
       const double loaded_by = problem.is_load_given ? solved_for : largest; // manufactured from u
       return safety * (epsilon * (amplification * loaded_by + largest) + residual * solved_for);
     }
   } // namespace
 
-  double variation(unsigned int n_components, const std::vector<double> &averages)
+  double variation(unsigned int n_components, const std::vector<double> &averages,
+                   const base::Communicator &ranks)
   {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     double most = 0;
-    for (unsigned int c = 0; c < n_components && !averages.empty(); ++c)
+    for (unsigned int c = 0; c < n_components; ++c)
     {
-      double low = averages[c], high = low;
+      double low = infinity, high = -infinity;
       for (std::size_t i = c; i < averages.size(); i += n_components)
       {
         low = std::min(low, averages[i]);
         high = std::max(high, averages[i]);
       }
+      high = ranks.largest(high);
+      low = -ranks.largest(-low);
       most = std::max(most, high - low);
     }
     return most;
@@ -82,12 +88,12 @@ namespace plumbline::study
 
   double round_off_error(const problem::Problem<2> &problem, const Solution &solution)
   {
-    return round_off(problem, solution, problem.lattice() != nullptr);
+    return round_off(problem, solution, problem.lattice() != nullptr, base::Communicator::alone());
   }
 
   double round_off_error(const problem::Problem<3> &problem,
-                         const analysis::SolutionInSpace &solution)
+                         const analysis::SolutionInSpace &solution, const base::Communicator &ranks)
   {
-    return round_off(problem, solution, true);
+    return round_off(problem, solution, true, ranks);
   }
 } // namespace plumbline::study

@@ -18,10 +18,14 @@ namespace plumbline::study
   double round_off_error(const problem::Problem<2> &problem, const Solution &solution);
 
   /// The same in space.
+  /// @param ranks  that share the solution
   double round_off_error(const problem::Problem<3> &problem,
-                         const analysis::SolutionInSpace &solution);
+                         const analysis::SolutionInSpace &solution,
+                         const base::Communicator &ranks = base::Communicator::alone());
 
   /// How far a solution varies: largest less least cell average, of the component where it is most.
   /// @param averages  shape (n_cells, n_components)
-  double variation(unsigned int n_components, const std::vector<double> &averages);
+  /// @param ranks     that share the cells
+  double variation(unsigned int n_components, const std::vector<double> &averages,
+                   const base::Communicator &ranks = base::Communicator::alone());
 } // namespace plumbline::study

@@ -294,11 +294,11 @@ namespace plumbline::study
   Analysis statics_analysis(const Methods &available, const StaticsOptions &options)
   {
     Analysis analysis{"statics", "Static solutions"};
-    analysis.choose_methods = [](const scene::Scene &scene, const Methods &all,
-                                 unsigned int n_levels, unsigned int n_jobs)
+    analysis.choose_methods = [options](const scene::Scene &scene, const Methods &all,
+                                        unsigned int n_levels, unsigned int n_jobs)
     {
       Methods methods = study::choose_methods(scene, all);
-      check_memory(scene, methods, all, n_levels, n_jobs);
+      check_memory(scene, methods, all, n_levels, n_jobs, options.ranks.n_ranks());
       return methods;
     };
     analysis.check = [](const scene::Scene &scene, const Methods &, unsigned int)

@@ -30,6 +30,8 @@ namespace plumbline::study
     std::function<std::vector<analysis::Outcome>(const Method &,
                                                  const std::vector<const problem::Problem<2> *> &)>
         solve = {};
+    /// That solve problems on a box in space together.
+    base::Communicator ranks = base::Communicator::alone();
   };
 
   /// Solutions of all cases, compared with the exact solution, the local limit, the reference and

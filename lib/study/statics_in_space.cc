@@ -9,6 +9,7 @@
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
+#include "study/slabs_in_space.h"
 #include "study/solution_record.h"
 #include "study/truncation.h"
 
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -29,15 +31,23 @@ namespace plumbline::study
     using scene::Quantity;
     using scene::Target;
 
+    // On several ranks each has the averages over the cells of its slab, see analysis::solve.
+    using base::Communicator;
+    using method::slabs_of_cells;
+
     /// Averages of a field over the cells of Ω, shape (n_cells, n_components): exact for
     /// polynomials of degree 9 in each variable.
-    std::vector<double> cell_averages(const problem::Field<3> &field, const ProblemInSpace &problem)
+    std::vector<double> cell_averages(const problem::Field<3> &field, const ProblemInSpace &problem,
+                                      const Communicator &ranks)
     {
       constexpr unsigned int n_points = 5;
       const auto &gauss = physics::gauss(n_points);
       physics::AxisFunctionals means;
+      const auto planes = slabs_of_cells(problem.lattice, ranks).owned();
       for (unsigned int d = 0; d < 3; ++d)
-        for (int i = 0; i < problem.lattice.n_cells()[d]; ++i)
+      {
+        const auto [first, second] = d == 2 ? planes : std::pair(0, problem.lattice.n_cells()[d]);
+        for (int i = first; i < second; ++i)
         {
           physics::AxisFunctional mean;
           for (unsigned int q = 0; q < n_points; ++q)
@@ -45,15 +55,21 @@ namespace plumbline::study
                               gauss.weight(q));
           means[d].push_back(std::move(mean));
         }
-      std::vector<double> result(problem.lattice.size() * problem.n_components);
+      }
+      std::vector<double> result;
       for (unsigned int c = 0; c < problem.n_components; ++c)
       {
         const auto of_component = field.apply(c, means, problem.lattice.mask());
+        if (c == 0)
+          result.resize((ranks.n_ranks() == 1 ? problem.lattice.size() : of_component.size()) *
+                        problem.n_components);
         std::size_t place = c;
-        problem.lattice.for_each_cell(
+        for_each_cell(
+            problem.lattice, planes,
             [&](const std::array<int, 3> &cell)
             {
-              result[place] = of_component[problem.lattice.number(cell)];
+              result[place] =
+                  of_component[problem.lattice.number({cell[0], cell[1], cell[2] - planes.first})];
               place += problem.n_components;
             });
       }
@@ -64,6 +80,8 @@ namespace plumbline::study
     int middle_layer(const geometry::CubeLattice &lattice)
     {
       const int middle = lattice.n_cells()[2] / 2;
+      if (lattice.is_box())
+        return middle;
       int nearest = -1;
       lattice.for_each_cell(
           [&](const std::array<int, 3> &cell)
@@ -74,10 +92,33 @@ namespace plumbline::study
       return nearest;
     }
 
+    /// The averages in a layer of cells, the same on all ranks.
+    std::vector<double> averages_in(int layer, const ProblemInSpace &problem,
+                                    const Communicator &ranks, const std::vector<double> &averages)
+    {
+      if (ranks.n_ranks() > 1)
+        return slabs_of_cells(problem.lattice, ranks)
+            .fetch(averages, plane_size(problem),
+                   [layer](unsigned int) -> base::Slabs::Range {
+                     return {layer, layer + 1};
+                   });
+      std::vector<double> result;
+      auto average = averages.begin();
+      problem.lattice.for_each_cell(
+          [&](const std::array<int, 3> &cell)
+          {
+            if (cell[2] == layer)
+              result.insert(result.end(), average, average + problem.n_components);
+            average += problem.n_components;
+          });
+      return result;
+    }
+
     /// Errors of averages in a layer of cells in the middle: the largest in each block of cells;
     /// and the solution's averages.
-    ErrorMap map_of_layer(const ProblemInSpace &problem, const std::vector<double> &averages,
-                          const std::vector<double> &target)
+    ErrorMap map_of_layer(const ProblemInSpace &problem, const Communicator &ranks,
+                          const std::vector<double> &all_averages,
+                          const std::vector<double> &all_targets)
     {
       constexpr int n_digits = 4;
       const auto &n = problem.lattice.n_cells();
@@ -97,28 +138,30 @@ namespace plumbline::study
       map.n_components = problem.n_components;
       BlockMeans means(map.values.size());
       std::size_t place = 0;
-      problem.lattice.for_each_cell(
-          [&](const std::array<int, 3> &cell)
-          {
-            const std::size_t block =
-                static_cast<std::size_t>(cell[1] / per_block) * map.n_x + cell[0] / per_block;
-            double &value = map.values[block];
-            if (cell[2] == layer)
-              means.add(block, &averages[place], problem.n_components);
-            for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
-              if (cell[2] == layer)
-                value = std::fmax(value, std::abs(averages[place] - target[place]));
-          });
+      const auto averages = averages_in(layer, problem, ranks, all_averages),
+                 target = averages_in(layer, problem, ranks, all_targets);
+      for_each_cell(problem.lattice, {layer, layer + 1},
+                    [&](const std::array<int, 3> &cell)
+                    {
+                      const std::size_t block =
+                          static_cast<std::size_t>(cell[1] / per_block) * map.n_x +
+                          cell[0] / per_block;
+                      double &value = map.values[block];
+                      means.add(block, &averages[place], problem.n_components);
+                      for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
+                        value = std::fmax(value, std::abs(averages[place] - target[place]));
+                    });
       map.solution = means.means();
       return map;
     }
 
-    /// A case of a level, and the averages that its solutions are held against; empty: none.
+    /// A case of a level, and the averages that its solutions are held against. (Those of a rank
+    /// without cells are empty.)
     struct CaseInSpace
     {
       std::string name;
       ProblemInSpace problem;
-      std::vector<double> exact, local, reference;
+      std::optional<std::vector<double>> exact = {}, local = {}, reference = {};
     };
     using CasesInSpace = std::vector<CaseInSpace>;
 
@@ -128,6 +171,9 @@ namespace plumbline::study
     public:
       LevelInSpace(const Place &place, const Methods &available, const StaticsOptions &options)
           : place_(place), scene_(place.scene()), available_(available), options_(options),
+            ranks_(scene_.domain.mesh.is_lattice() && scene_.domain.cubes(place.level().h).is_box()
+                       ? options.ranks
+                       : Communicator::alone()),
             cases_(place.shared<CasesInSpace>("cases in space", [this] { return open_cases(); }))
       {
       }
@@ -142,7 +188,8 @@ namespace plumbline::study
           place_.fill(records.back(),
                       [&](Record &record)
                       {
-                        const SolutionInSpace solution = analysis::solve(method, one.problem);
+                        const SolutionInSpace solution =
+                            analysis::solve(method, one.problem, ranks_);
                         evaluate(one, solution, record);
                         enter_truncation(method, scene_.study.norms, one.problem, record);
                         tell_values(method, one, solution, record);
@@ -160,14 +207,11 @@ namespace plumbline::study
         {
           const scene::CellsInSpace cells = cases.empty() ? nullptr : cases.front().problem.cells;
           CaseInSpace one{names[c],
-                          make_problem_in_space(scene_, c, place_.level(), 0, nullptr, cells),
-                          {},
-                          {},
-                          {}};
+                          make_problem_in_space(scene_, c, place_.level(), 0, nullptr, cells)};
           if (one.problem.solution)
-            one.exact = cell_averages(*one.problem.solution, one.problem);
+            one.exact = cell_averages(*one.problem.solution, one.problem, ranks_);
           if (one.problem.local_solution)
-            one.local = cell_averages(*one.problem.local_solution, one.problem);
+            one.local = cell_averages(*one.problem.local_solution, one.problem, ranks_);
           if (scene_.reference.method)
             one.reference = solve_reference(one);
           cases.push_back(std::move(one));
@@ -178,13 +222,13 @@ namespace plumbline::study
       std::vector<double> solve_reference(const CaseInSpace &one) const
       {
         const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
-        const SolutionInSpace solution = analysis::solve(*method, one.problem);
+        const SolutionInSpace solution = analysis::solve(*method, one.problem, ranks_);
         if (scene_.reference.estimate == scene::Estimate::none)
           return solution.averages;
         const ErrorEstimate estimate =
-            placed(estimate_in_space(*method, one.problem, solution), place_, one.name);
+            placed(estimate_in_space(*method, one.problem, solution, ranks_), place_, one.name);
         place_.results().references.push_back(estimate);
-        const double size = averages_l2(one.problem, solution.averages);
+        const double size = averages_l2(one.problem, ranks_, solution.averages);
         if (const double tolerance = scene_.reference.tolerance;
             tolerance > 0 && !(estimate.estimate <= tolerance * size))
         {
@@ -202,23 +246,25 @@ namespace plumbline::study
       {
         const ProblemInSpace &problem = one.problem;
         run.cost = solution.cost;
-        run.set("variation", variation(problem.n_components, solution.averages));
-        run.set("round-off", round_off_error(problem, solution));
+        run.set("variation", variation(problem.n_components, solution.averages, ranks_));
+        run.set("round-off", round_off_error(problem, solution, ranks_));
         run.set("area", cell_volume(problem) * static_cast<double>(problem.lattice.size()),
                 "length^3");
         set_diagnostics(run, solution.diagnostics);
         for (const auto &[target, averages] :
              {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
               std::pair(Target::reference, &one.reference)})
-          if (!averages->empty())
+          if (*averages)
             set_errors(run, Quantity::averages, target, problem.n_components, solution.averages,
-                       *averages);
+                       **averages);
         if (problem.solution)
           set_errors(run, Quantity::nodal, Target::exact, problem.n_components, solution.nodal,
-                     nodal_values(*problem.solution, solution), solution.volumes);
+                     nodal_values(*problem.solution, problem.n_components, solution),
+                     solution.volumes);
         if (problem.local_solution)
           set_errors(run, Quantity::nodal, Target::local, problem.n_components, solution.nodal,
-                     nodal_values(*problem.local_solution, solution), solution.volumes);
+                     nodal_values(*problem.local_solution, problem.n_components, solution),
+                     solution.volumes);
         if (place_.is_finest())
           finish_series(one, solution, run);
       }
@@ -238,7 +284,7 @@ namespace plumbline::study
         std::vector<double> errors;
         if (is_shown || is_at_points)
         {
-          const ErrorEstimate found = estimate_in_space(method, problem, solution, points);
+          const ErrorEstimate found = estimate_in_space(method, problem, solution, ranks_, points);
           errors = found.at_points;
           if (is_shown)
             place_.results().estimates.push_back(placed(found, place_, one.name));
@@ -252,14 +298,21 @@ namespace plumbline::study
                          const Record &run) const
       {
         if (options_.on_finest)
+        {
+          std::vector<double> gathered; // on the first rank, which writes
+          if (ranks_.n_ranks() > 1)
+            gathered = slabs_of_cells(one.problem.lattice, ranks_)
+                           .gather(solution.averages, plane_size(one.problem));
+          const auto &all = ranks_.n_ranks() > 1 ? gathered : solution.averages;
           options_.on_finest([&](const std::string &stem)
-                             { method::write_vti(one.problem, solution.averages, stem + ".vti"); },
+                             { method::write_vti(one.problem, all, stem + ".vti"); },
                              run);
-        const std::vector<double> &target = !one.exact.empty() ? one.exact : one.reference;
-        if (target.empty() || run.key.problem != cases_.back().name ||
+        }
+        const auto &target = one.exact ? one.exact : one.reference;
+        if (!target || run.key.problem != cases_.back().name ||
             place_.series().name != scene_.study.series.front().name)
           return;
-        ErrorMap map = map_of_layer(one.problem, solution.averages, target);
+        ErrorMap map = map_of_layer(one.problem, ranks_, solution.averages, *target);
         map.method = run.key.method;
         map.problem = run.key.problem;
         map.series = run.key.series;
@@ -267,11 +320,9 @@ namespace plumbline::study
         place_.results().maps.push_back(map);
       }
 
-      std::vector<double> nodal_values(const problem::Field<3> &field,
+      std::vector<double> nodal_values(const problem::Field<3> &field, unsigned int n_components,
                                        const SolutionInSpace &solution) const
       {
-        const auto n_components =
-            static_cast<unsigned int>(solution.nodal.size() / solution.nodes.size());
         std::vector<double> values;
         for (const auto &node : solution.nodes)
           for (unsigned int c = 0; c < n_components; ++c)
@@ -280,6 +331,7 @@ namespace plumbline::study
       }
 
       /// Of the scene's norms.
+      /// @param found    of this rank, as the others
       /// @param volumes  that values stand for, shape (n_places); empty: equal parts of Ω
       void set_errors(Record &run, Quantity quantity, Target target, unsigned int n_components,
                       const std::vector<double> &found, const std::vector<double> &right,
@@ -292,7 +344,9 @@ namespace plumbline::study
           largest = std::max(largest, std::abs(found[i] - right[i]));
           squares += weight * std::pow(found[i] - right[i], 2);
         }
-        const double n_places = static_cast<double>(found.size()) / n_components,
+        largest = ranks_.largest(largest);
+        squares = ranks_.sum(squares);
+        const double n_places = ranks_.sum(static_cast<double>(found.size())) / n_components,
                      l2 = std::sqrt(volumes.empty() ? squares * run["area"] / n_places : squares);
         for (const scene::Norm norm : scene_.study.norms)
           if (scene::quantity(norm) == quantity)
@@ -309,6 +363,7 @@ namespace plumbline::study
       const scene::Scene &scene_;
       const Methods &available_;
       const StaticsOptions &options_;
+      Communicator ranks_; ///< that share what is solved
       const CasesInSpace &cases_;
     };
   } // namespace

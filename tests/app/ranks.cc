@@ -49,6 +49,34 @@ TEST(Ranks, share_meshes_without_a_word)
   fs::remove_all(folder);
 }
 
+TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
+{
+  const fs::path folder = temporary("ranks");
+  const std::string cube =
+      write("ranks_cube.prm", "subsection Domain\n set dimension = 3\n"
+                              " set boxes = 0,0,0 : 1,1,1\nend\n"
+                              "subsection Problem\n set solution = x^2 + y*z\nend\n"
+                              "subsection Methods\n set names = FA, Q1\nend\n"
+                              "subsection Study\n set h = 1/4, 1/6\nend\n"
+                              "subsection Output\n set fields = true\nend\n") +
+      " --threads 1 --quiet -o " + folder.string();
+  Outcome outcome = run_on_two_ranks("run " + cube);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  const std::string results = read(folder / "results.json");
+  expect_found(results, "\"work of ranks\": \"distributed in slabs of cells along z\"");
+  expect_found(results, " in slabs\"");
+  outcome = run_on_two_ranks("run " + cube + " --methods Q1,Q2 --levels 1");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work of Q2; Q1, DGQ0 "
+                               "and rules on the nodes of the lattice are distributed"),
+            1u)
+      << outcome.err;
+  expect_found(read(folder / "results.json"),
+               "\"work of ranks\": \"repeated by each: Q2; others distributed in slabs");
+  fs::remove_all(folder);
+}
+
 TEST(Ranks, refuse_with_one_voice)
 {
   const Outcome outcome =

@@ -1,0 +1,221 @@
+// Boxes in slabs of planes: on any number of ranks, more than there are planes included, the
+// operator, the preconditioner and the solution of one rank.
+#include "base/slabs.h"
+#include "algebra/linear_system.h"
+#include "algebra/rectangle_solver.h"
+#include "algebra/slab_system.h"
+#include "base/error.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+  using namespace plumbline;
+  using namespace plumbline::algebra;
+  using base::Communicator;
+  using base::Slabs;
+
+  using Extents = std::array<int, 3>;
+
+  /// The same on all ranks.
+  Vector random_values(std::size_t n)
+  {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Vector values(n);
+    for (double &value : values)
+      value = uniform(random);
+    return values;
+  }
+
+  /// Symmetric, with other entries along each axis, diagonally dominant.
+  /// @param is_even  each block, too
+  Stencil make_stencil(unsigned int n_blocks, const Extents &reach, bool is_even)
+  {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(.1, 1);
+    Stencil stencil(n_blocks, reach);
+    double total = 0;
+    for (unsigned int s = 0; s < n_blocks; ++s)
+      for (unsigned int t = 0; t <= s; ++t)
+        stencil.for_each_offset(
+            [&](int k1, int k2, int k3)
+            {
+              const double w = -uniform(random) * (s == t ? 1 : .3),
+                           odd = is_even || s == t ? 1 : -.5;
+              stencil(s, t, k1, k2, k3) = stencil(t, s, -k1, -k2, -k3) = w;
+              stencil(s, t, -k1, -k2, -k3) = stencil(t, s, k1, k2, k3) = odd * w;
+              total += std::abs(w);
+            });
+    for (unsigned int s = 0; s < n_blocks; ++s)
+      for (unsigned int t = 0; t < n_blocks; ++t)
+        stencil(s, t, 0, 0, 0) = s == t ? 4 * total : 0;
+    return stencil;
+  }
+
+  /// What this rank has of values over all nodes, shape (n_blocks, n[2], n[1], n[0]).
+  Vector own_part(const Vector &all, unsigned int n_blocks, const Extents &n, const Slabs &slabs)
+  {
+    const std::size_t plane = static_cast<std::size_t>(n[0]) * n[1];
+    Vector own(n_blocks * plane * slabs.n_owned());
+    auto value = own.begin();
+    for (unsigned int s = 0; s < n_blocks; ++s)
+      value = std::copy_n(all.begin() + (s * n[2] + slabs.owned().first) * plane,
+                          plane * slabs.n_owned(), value);
+    return own;
+  }
+
+  /// Of this rank's values from what they should be, relative to the largest of these.
+  double difference(Vector own, const Vector &expected, unsigned int n_blocks, const Extents &n,
+                    const Slabs &slabs)
+  {
+    const Vector right = own_part(expected, n_blocks, n, slabs);
+    double largest = 0;
+    for (std::size_t i = 0; i < right.size(); ++i)
+      largest = std::max(largest, std::abs(own[i] - right[i])); // NaN is lost
+    for (const double value : own)
+      if (!std::isfinite(value))
+        return value;
+    return largest / expected.linfty_norm();
+  }
+
+  constexpr double rounding = 1e-12;
+} // namespace
+
+TEST(Slabs, have_each_plane_once_in_order)
+{
+  for (const int n : {1, 5, 8, 17})
+  {
+    const Slabs slabs(Communicator::all(), n);
+    int next = 0;
+    for (unsigned int rank = 0; rank < slabs.ranks().n_ranks(); ++rank)
+    {
+      EXPECT_EQ(slabs.owned(rank).first, next);
+      next = slabs.owned(rank).second;
+    }
+    EXPECT_EQ(next, n);
+    EXPECT_EQ(slabs.ranks().sum(slabs.n_owned()), n);
+  }
+}
+
+TEST(Slabs, fetch_planes_from_all_ranks_that_have_them)
+{
+  constexpr int n = 7, plane_size = 3, halo = 4; // beyond the next rank, and beyond the ends
+  const Slabs slabs(Communicator::all(), n);
+  std::vector<double> own;
+  for (int k = slabs.owned().first; k < slabs.owned().second; ++k)
+    for (int i = 0; i < plane_size; ++i)
+      own.push_back(100 + 10 * k + i);
+  const auto wanted = [&](unsigned int rank) -> Slabs::Range {
+    return {slabs.owned(rank).first - halo, slabs.owned(rank).second + halo};
+  };
+  const auto found = slabs.fetch(own, plane_size, wanted);
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(plane_size) * (slabs.n_owned() + 2 * halo));
+  auto value = found.begin();
+  for (int k = slabs.owned().first - halo; k < slabs.owned().second + halo; ++k)
+    for (int i = 0; i < plane_size; ++i)
+      EXPECT_EQ(*value++, k < 0 || k >= n ? 0 : 100 + 10 * k + i);
+
+  const auto all = slabs.gather(own, plane_size);
+  ASSERT_EQ(all.size(), slabs.ranks().rank() == 0 ? n * plane_size : 0u);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_EQ(all[i], 100 + 10 * (i / plane_size) + i % plane_size);
+}
+
+TEST(SlabSystem, is_the_operator_of_one_rank)
+{
+  for (const unsigned int n_blocks : {1u, 3u})
+    for (const bool is_even : {true, false})
+      for (const Extents &reach : {Extents{1, 1, 1}, {2, 1, 3}})
+        for (const Extents &n : {Extents{7, 6, 5}, {5, 4, 17}})
+          for (const auto backend :
+               {OperatorBackend::automatic, OperatorBackend::direct, OperatorBackend::fft})
+          {
+            const Stencil stencil = make_stencil(n_blocks, reach, is_even);
+            if (backend == OperatorBackend::direct && !stencil.is_even())
+              continue;
+            const Slabs slabs(Communicator::all(), n[2]);
+            const Vector input = random_values(n_blocks * n[0] * n[1] * n[2]);
+            Vector expected(input.size());
+            make_operator(stencil, geometry::BoxNodes{n}, backend)->vmult(expected, input);
+            const Vector own = own_part(input, n_blocks, n, slabs);
+            Vector output(own.size());
+            SlabSystem(stencil, n, slabs, backend).vmult(output, own);
+            EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding)
+                << n_blocks << ", " << is_even << ", " << reach[2] << ", " << n[2];
+          }
+}
+
+TEST(SlabSystem, has_the_preconditioner_of_one_rank)
+{
+  for (const unsigned int n_blocks : {1u, 2u})
+    for (const Extents &n : {Extents{7, 6, 5}, {6, 3, 17}, {4, 9, 1}})
+    {
+      const Stencil stencil = make_stencil(n_blocks, {2, 2, 2}, true);
+      const Slabs slabs(Communicator::all(), n[2]);
+      const Vector input = random_values(n_blocks * n[0] * n[1] * n[2]);
+      Vector expected(input.size());
+      make_box_sine_solver(stencil, n, {{}, n})->add_inverse(expected, input);
+      const Vector own = own_part(input, n_blocks, n, slabs);
+      Vector output(own.size());
+      SlabSystem(stencil, n, slabs, OperatorBackend::automatic).precondition(output, own);
+      EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding);
+    }
+}
+
+TEST(SlabSystem, has_blocks_that_leave_the_last_ranks_fewer_planes)
+{
+  // inner vertices have the blocks of the cells, of which there is one plane more
+  const Extents n = {5, 4, 8};
+  const Slabs slabs = Slabs(Communicator::all(), n[2] + 1).with_planes(n[2]);
+  const Stencil stencil = make_stencil(1, {2, 2, 2}, true);
+  const Vector input = random_values(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
+  Vector expected(input.size());
+  make_box_sine_solver(stencil, n, {{}, n})->add_inverse(expected, input);
+  const Vector own = own_part(input, 1, n, slabs);
+  Vector output(own.size());
+  SlabSystem(stencil, n, slabs, OperatorBackend::direct).precondition(output, own);
+  EXPECT_LT(difference(output, expected, 1, n, slabs), rounding);
+}
+
+TEST(SlabSystem, solves_as_one_rank_does)
+{
+  for (const unsigned int n_blocks : {1u, 3u})
+    for (const Extents &n : {Extents{9, 8, 6}, {5, 4, 19}})
+    {
+      const Stencil stencil = make_stencil(n_blocks, {2, 2, 2}, n_blocks == 1);
+      const Slabs slabs(Communicator::all(), n[2]);
+      const Vector right_hand_side = random_values(n_blocks * n[0] * n[1] * n[2]);
+      Vector expected(right_hand_side.size());
+      const LinearSolve alone =
+          StencilSystem(stencil, geometry::BoxNodes{n}, OperatorBackend::automatic)
+              .solve(expected, right_hand_side, {1e-13, 100});
+      const Vector own = own_part(right_hand_side, n_blocks, n, slabs);
+      Vector solution(own.size());
+      const LinearSolve together = SlabSystem(stencil, n, slabs, OperatorBackend::automatic)
+                                       .solve(solution, own, {1e-13, 100});
+      EXPECT_LT(difference(solution, expected, n_blocks, n, slabs), rounding);
+      EXPECT_EQ(together.n_iterations, alone.n_iterations);
+      EXPECT_EQ(together.n_bonds, alone.n_bonds);
+      EXPECT_EQ(together.backend, alone.backend + " in slabs");
+    }
+}
+
+TEST(SlabSystem, is_refused_by_all_ranks)
+{
+  const Extents n = {6, 5, 9};
+  const Slabs slabs(Communicator::all(), n[2]);
+  Stencil stencil = make_stencil(1, {1, 1, 1}, true);
+  const double diagonal = stencil(0, 0, 0, 0, 0);
+  stencil(0, 0, 0, 0, 0) = 0; // its symbol is negative where others have their modes
+  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::automatic), NumericalError);
+  stencil(0, 0, 0, 0, 0) = diagonal;
+  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::sparse), InputError);
+  stencil(0, 0, 1, 0, 0) *= 2;
+  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::automatic), NumericalError);
+}
