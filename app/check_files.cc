@@ -175,12 +175,13 @@ namespace plumbline::app
                    "[unit of the solution].",
                    solution_table(found)}};
     if (found.body)
-      page.parts.insert(page.parts.begin(),
-                        {"body", "Free surfaces and cracks",
-                         "Moments of all families relative to those of the visible part of the "
-                         "ball. visible/bulk and weights/bulk are second moments relative to those of the bulk. "
-                         "All other tables and maps are those of the interior.",
-                         body_table(found)});
+      page.parts.insert(
+          page.parts.begin(),
+          {"body", "Free surfaces and cracks",
+           "Moments of all families relative to those of the visible part of the "
+           "ball. visible/bulk and weights/bulk are second moments relative to those of the bulk. "
+           "All other tables and maps are those of the interior.",
+           body_table(found)});
     for (std::size_t i = 0; i < found.cells->n_free; ++i)
       page.nodes.push_back({found.cells->nodes[i][0], found.cells->nodes[i][1]});
     page.defects = {fields[0], fields[1]};
