@@ -260,9 +260,32 @@ TEST(StaticsInSpace, have_the_memory_that_is_foretold)
   }
   catch (const InputError &error)
   {
-    EXPECT_NE(std::string(error.what()).find("(999 x 999 x 999 cells)"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("(999 x 999 x 999 cells): needs"), std::string::npos)
         << error.what();
   }
+}
+
+TEST(StaticsInSpace, need_the_memory_of_a_slab_where_ranks_share_a_box)
+{
+  const Methods all = available();
+  const auto check = [&](const Settings &settings, unsigned int n_ranks) -> std::string
+  {
+    try
+    {
+      check_memory(make_scene(with({{"Study/h", "1/1000"}}, settings)),
+                   choose_methods(make_scene(settings), all), all, 0, 1, n_ranks);
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  const Settings box = {{"Methods/names", "FA, Q1"}}, other = {{"Methods/names", "Q2"}};
+  EXPECT_EQ(check(box, 500), "");
+  EXPECT_NE(check(box, 2).find("(1000 x 1000 x 1000 cells) on each of 2 ranks: needs"),
+            std::string::npos);
+  EXPECT_NE(check(other, 500), "");
 }
 
 TEST(StaticsInSpace, and_motions_are_refused_without_the_memory_they_need)
