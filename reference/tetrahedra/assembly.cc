@@ -283,16 +283,25 @@ namespace plumbline::reference
       double repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
       {
         const auto &x = f.face->vertices(), &y = g.face->vertices();
+        constexpr double off = 1e-12; // rounding of coordinates
+        bool is_of_lattice = true;
         Places places{};
         for (unsigned int d = 0; d < 3; ++d)
         {
           const auto place = [&](const Point<3> &vertex)
-          { return std::lround((vertex[d] - x[0][d]) / spacing_); };
+          {
+            const double steps = (vertex[d] - x[0][d]) / spacing_;
+            const long nearest = std::lround(steps);
+            is_of_lattice = is_of_lattice && std::abs(steps - static_cast<double>(nearest)) < off;
+            return nearest;
+          };
           for (unsigned int k = 0; k < 3; ++k)
           {
             places[3 * d + k] = place(x[k]);
             places[9 + 3 * d + k] = place(y[k]);
           }
+          if (!is_of_lattice)
+            return exactly(f, g, work);
         }
         {
           const std::lock_guard<std::mutex> lock(mutex_);

@@ -23,8 +23,8 @@ namespace plumbline::reference
     /// thousands of pairs, whose round-off is random, add up to an entry.
     double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
-    /// Vertices are a lattice's, with this spacing [length], and pairs of faces that are
-    /// translations of each other are integrated once; 0: they are not.
+    /// Pairs of faces with all vertices on a lattice of this spacing [length] that are translations
+    /// of each other are integrated once; 0: they are not.
     double spacing = 0;
   };
 

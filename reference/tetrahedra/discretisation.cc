@@ -142,7 +142,9 @@ namespace plumbline::reference
       algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
       {
         const bool is_continuous = space_->is_continuous();
-        const FaceRule exact = FaceRule::exact(), check = FaceRule::quadrature(1);
+        FaceRule exact = FaceRule::exact();
+        exact.spacing = problem.h(); // of vertices that are not moved
+        const FaceRule check = FaceRule::quadrature(1);
         FaceRuleUse use;
         algebra::CsrMatrix matrix;
         double change = 0; // of entries, relative to the diagonal

@@ -37,6 +37,8 @@ namespace plumbline::reference
 
     /// Σ_j b_j r^j = r f for r < end.
     const std::vector<Real> &powers() const { return powers_; }
+    /// b_j / (j + 3), of r g₁.
+    const std::vector<Real> &powers_of_edges() const { return of_edges_; }
     /// ∫_0^end r^k f r dr, k = 0, 1, 2.
     const Real &moment(int k) const { return moments_[k]; }
 
@@ -50,7 +52,8 @@ namespace plumbline::reference
   private:
     Real end_;
     int order_;
-    std::vector<Real> powers_;  ///< b
+    std::vector<Real> powers_; ///< b
+    std::vector<Real> of_edges_;
     std::vector<Real> regular_; ///< of H / r
     std::vector<Real> compact_; ///< of -r² H / (end - r)^(n+4), all of one sign if γ's are
     Real moments_[3] = {};
@@ -102,6 +105,7 @@ namespace plumbline::reference
     for (std::size_t j = 0; j < powers_.size(); ++j)
     {
       const int n = static_cast<int>(j);
+      of_edges_.push_back(powers_[j] / Real(n + 3));
       regular_.push_back(powers_[j] / Real((n + 1) * (n + 2) * (n + 3)));
       for (int l = 0; l < 3; ++l)
         moments_[l] += powers_[j] * power_of_end(n + l + 1) / Real(n + l + 1);

@@ -256,10 +256,24 @@ namespace plumbline::reference
       return sum;
     }
 
-    /// Σ powers_j / (j + 3) r^(j-1) is g₁, Σ powers_j r^(j-1) is f.
-    Real coefficient(const PotentialPart<Real> &part, std::size_t j) const
+    /// Σ coefficient_j r^(j-1) is g₁, or f.
+    const Real &coefficient(const PotentialPart<Real> &part, std::size_t j) const
     {
-      return is_plane_ ? part.powers()[j] : Real(part.powers()[j] / static_cast<int>(j + 3));
+      return is_plane_ ? part.powers()[j] : part.powers_of_edges()[j];
+    }
+
+    /// 1/n.
+    static const std::array<Real, 64> &inverses()
+    {
+      static const std::array<Real, 64> values = []
+      {
+        std::array<Real, 64> result;
+        result[0] = 0;
+        for (int n = 1; n < 64; ++n)
+          result[static_cast<std::size_t>(n)] = Real(1) / n;
+        return result;
+      }();
+      return values;
     }
 
     void add_by_rule(const PotentialPart<Real> &part, const Real &upper,
@@ -270,13 +284,14 @@ namespace plumbline::reference
         return;
       const Real axis = (d_ + sqrt(upper * upper + square_)) / upper; // poles at ±i d
       const auto &rule = GaussRules<Real>::get().for_ellipse(axis);
+      const Real half = upper / 2;
       for (unsigned int q = 0; q < rule.n; ++q)
       {
-        const Real sigma = upper / 2 * (1 + rule.points[q]), r = sqrt(sigma * sigma + square_);
+        const Real sigma = half * (1 + rule.points[q]), r = sqrt(sigma * sigma + square_);
         Real value = 0;
         for (std::size_t j = part.powers().size(); j-- > 0;)
           value = value * r + coefficient(part, j);
-        value *= upper / 2 * rule.weights[q] / r * sigma;
+        value *= half * rule.weights[q] / r * sigma;
         sum[0] += value;
         sum[1] += value * sigma;
         sum[2] += value * sigma * sigma;
@@ -300,21 +315,21 @@ namespace plumbline::reference
         power[k] = power[k - 1] * r;
         of_d[k] = of_d[k - 1] * d_;
       }
+      const std::array<Real, 64> &inverse = inverses();
       whole[0] = log((rho + r) / d_);
       whole[1] = rho;
-      for (std::size_t k = 2; k < size + 2; ++k)
-      {
-        const int m = static_cast<int>(k) - 1;
-        whole[k] = (rho * power[k] + square_ * whole[k - 2] * m) / (m + 1);
-      }
+      for (std::size_t k = 2; k < size + 2; ++k) // m = k - 1
+        whole[k] = (rho * power[k] + square_ * whole[k - 2] * static_cast<int>(k - 1)) * inverse[k];
       for (std::size_t k = 0; k < size; ++k)
       {
-        const int m = static_cast<int>(k) - 1;
-        const Real factor = coefficient(part, k);
-        const Real first = (power[k + 2] - of_d[k + 2]) / (m + 2);
+        const Real &factor = coefficient(part, k);
+        if (factor == 0)
+          continue;
+        const Real first = (power[k + 2] - of_d[k + 2]) * inverse[k + 1];
         sum[0] += factor * first;
         sum[1] += factor * (whole[k + 2] - square_ * whole[k]);
-        sum[2] += factor * ((power[k + 4] - of_d[k + 4]) / (m + 4) - square_ * first);
+        if (is_plane_)
+          sum[2] += factor * ((power[k + 4] - of_d[k + 4]) * inverse[k + 3] - square_ * first);
       }
     }
 

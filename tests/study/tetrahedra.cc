@@ -156,7 +156,7 @@ TEST(StaticsOnTetrahedra, that_are_thin_have_exact_entries_all_the_same)
                                        {"Problem/solution", "x - 2*y"},
                                        {"Methods/perturbation", "0.3"},
                                        {"Domain/boxes", "0,0,0 : 1,3/4,1/2"},
-                                       {"Study/m", "3"},
+                                       {"Study/m", "1.5"},
                                        {"Study/norms", "nodal Linf"},
                                        {"Study/h", "1/4"}}));
   const Record &record = results.records.front();
