@@ -135,7 +135,7 @@ namespace plumbline::app
       }
     if (names.empty())
       throw InputError("the folder '" + folder.string() +
-                       "' of the certified set is not there; install Plumbline with its scenes "
+                       "' of the certified set does not exist; install Plumbline with its scenes "
                        "('cmake --install'), or give the file of a certificate");
     std::sort(names.begin(), names.end());
     return names;
@@ -197,7 +197,7 @@ namespace plumbline::app
         x.push_back(csv.number(axis));
       const std::size_t i = places.find(x);
       if (i == certificate.points.size())
-        csv.fail(place_text(x) + " is no point of the certificate, within " +
+        csv.fail(place_text(x) + " is not a point of the certificate, within " +
                  base::to_text(places.tolerance(), n_digits) + "; take it out");
       if (lines[i] > 0)
         csv.fail(place_text(x) + " is in line " + std::to_string(lines[i]) + ", too; take one out");

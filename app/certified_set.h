@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// The certified problems that come with the program, NLB-01 and on, and files of values for them.
+// The certified problems that come with the program, NLB-01 and so on, and files of values.
 namespace plumbline::app
 {
   /// The prefix under which the running command is installed, if it is.

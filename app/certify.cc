@@ -256,14 +256,14 @@ namespace plumbline::app
       return level - 1;
     }
 
-    /// @throws InputError      a point is there twice
+    /// @throws InputError      a point is listed twice
     /// @throws NumericalError  nothing is certified
     void check_result(const Certificate &certificate, bool is_first)
     {
       const study::CertifiedPlaces places(certificate);
       for (std::size_t i = 0; i < certificate.points.size(); ++i)
         if (const auto &x = certificate.points[i].x; places.find(x) != i)
-          throw InputError("Output/points: " + place_text(x) + " is there twice; leave one out");
+          throw InputError("Output/points: " + place_text(x) + " is listed twice; leave one out");
       if (!(certificate.size > 0))
         throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
                              "to its size; give a load, or other points");

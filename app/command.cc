@@ -335,9 +335,9 @@ namespace
     auto &command = *app.add_subcommand(
         "grade", "Grade the values of another code against a certificate: digits, order, limit");
     command.add_option("FILE", options->files,
-                       "Its values at the certified points: CSV with x,y,u of a scalar, x,y,u,v or "
-                       "x,y,u1,u2 of a vector, in three dimensions x,y,z and u or u1,u2,u3; a file "
-                       "for each grid");
+                       "Values of your code at the certified points: CSV with x,y,u of a scalar, "
+                       "x,y,u,v or x,y,u1,u2 of a vector, in three dimensions x,y,z and u or "
+                       "u1,u2,u3; a file for each grid");
     command
         .add_option("--problem", options->problem,
                     "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "

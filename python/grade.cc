@@ -33,7 +33,7 @@ namespace plumbline::python
         const auto same = std::find(numbers.begin(), numbers.end() - 1, numbers.back());
         if (numbers.back() == n || same != numbers.end() - 1)
           throw InputError("points: row " + std::to_string(k) + " is " +
-                           (numbers.back() == n ? "no point of the certificate; leave it out"
+                           (numbers.back() == n ? "not a point of the certificate; leave it out"
                                                 : "the point of another row, too; leave one out"));
       }
       if (n_given < n)

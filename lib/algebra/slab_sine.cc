@@ -36,7 +36,7 @@ namespace plumbline::algebra
         fftw_mpi_local_size_many_transposed(3, extents.data(), 1, slabs.block(), rows.block(), mpi,
                                             &n_planes, &first_plane, &n_rows, &first_row);
     if (n_planes != slabs.n_owned() || n_rows != rows.n_owned())
-      throw NumericalError("FFTW distributes planes in another way than asked for");
+      throw NumericalError("FFTW distributes planes differently from the slabs requested");
     field_ = AlignedArray<double>(std::max<std::size_t>(n_local, 1));
     const std::array<fftw_r2r_kind, 3> kinds = {FFTW_RODFT00, FFTW_RODFT00, FFTW_RODFT00};
     const auto plan = [&](unsigned int flag, int block_in, int block_out)

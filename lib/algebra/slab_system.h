@@ -12,8 +12,8 @@ namespace plumbline::algebra
   /// StencilSystem for one problem on many ranks. Each rank applies the stencil to its slab by the
   /// operators of one rank, with a halo of planes within reach from the ranks beside it;
   /// distributed sine transforms precondition. Memory and work of a rank fall as 1 / (number of
-  /// ranks), but for the halo, as long as there are planes for all ranks. Vectors are this rank's,
-  /// shape (n_blocks, n_owned, n[1], n[0]).
+  /// ranks), except for the halo, as long as there are planes for all ranks. Vectors are this
+  /// rank's, shape (n_blocks, n_owned, n[1], n[0]).
   class SlabSystem : public LinearSystem
   {
   public:

@@ -275,8 +275,8 @@ namespace plumbline::geometry
     if (mesh.find("$Elements\n0\n") != std::string::npos)
       throw InputError(source +
                        ": gmsh makes no cells of it; end every If by EndIf and every For by "
-                       "EndFor, and define the " +
-                       (dimension == 2 ? "surfaces" : "volumes") + " that are physical");
+                       "EndFor, and define physical " +
+                       (dimension == 2 ? "surfaces" : "volumes"));
     return mesh;
   }
 

@@ -22,7 +22,7 @@ namespace plumbline::geometry
   Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true,
                  bool is_curved = false);
 
-  /// The same of tetrahedra of first order in physical volumes, for problems in space; .geo files
+  /// The same for tetrahedra of first order in physical volumes, for problems in space; .geo files
   /// are meshed in three dimensions. Inverted cells are turned around.
   /// @throws InputError  as read_mesh, read_msh_tetrahedra and `check` of such a mesh
   TetrahedralMesh read_tetrahedra(const std::string &file, double h, double delta);

@@ -350,7 +350,8 @@ namespace plumbline::geometry
           const bool is_lower =
               is_one_of(msh::points_and_lines, type) || (dimension == 3 && msh::is_surface(type));
           if (dimension == dimension_ && is_lower)
-            words_.fail("elements of type " + std::to_string(type) + " are none of a " + body());
+            words_.fail("elements of type " + std::to_string(type) + " are not cells of a " +
+                        body());
           const bool is_wanted = is_physical && is_taken(type, found->second);
           for (long i = 0; i < n; ++i)
           {

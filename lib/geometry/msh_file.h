@@ -24,7 +24,7 @@ namespace plumbline::geometry
   Mesh read_msh(const std::string &text, const std::string &source, bool has_collar,
                 SideCurves *curves = nullptr);
 
-  /// The same of tetrahedra of first order in physical volumes, in the order of the file's nodes,
+  /// The same for tetrahedra of first order in physical volumes, in the order of the file's nodes,
   /// as they are: inverted ones, too.
   /// @throws InputError  as read_msh, and other cells in physical volumes
   TetrahedralMesh read_msh_tetrahedra(const std::string &text, const std::string &source);

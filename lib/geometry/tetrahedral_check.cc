@@ -214,7 +214,7 @@ namespace plumbline::geometry
                    "lies where " + name(side.cell) +
                        " has another vertex; let the cells share one (gmsh: Coherence Mesh)");
       reject("a face of " + name(side.cell), middle(mesh, side.key),
-             "is covered in part by another one, of " + name(other) +
+             "is partly covered by another one, of " + name(other) +
                  ", so that the mesh is not conforming; let cells share whole faces (gmsh: "
                  "Coherence or BooleanFragments before meshing)");
     }

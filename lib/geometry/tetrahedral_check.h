@@ -19,7 +19,7 @@ namespace plumbline::geometry
   /// Those of all cells, ordered by key, then by cell.
   std::vector<TetrahedralSide> sides_of(const TetrahedralMesh &mesh);
 
-  /// That the mesh is one of disjoint tetrahedra that meet in whole faces.
+  /// Check that the mesh consists of disjoint tetrahedra that meet in whole faces.
   /// @throws InputError  naming cell and place: no cell in Ω, a coordinate that is not finite,
   /// degenerate or inverted cells, a face of more than two cells, overlapping cells, two vertices
   /// in one place, faces that cover others in part (a mesh that is not conforming)

@@ -8,7 +8,7 @@
 
 namespace plumbline::geometry
 {
-  /// Finds the cells of Ω at places.
+  /// Finds the cells of Ω that contain given points.
   class TetrahedronSearch
   {
   public:
@@ -34,9 +34,9 @@ namespace plumbline::geometry
   /// Of the cells of Ω. [length^3]
   double volume(const TetrahedralMesh &mesh);
 
-  /// The cubes of side h in Ω: of the lattice about the middle of its bounding box, in which as
-  /// many whole cubes as fit lie side by side, those that no face of Ω's boundary cuts. They fill
-  /// Ω if it is a union of cubes there, else all but a layer of its boundary.
+  /// The cubes of side h in Ω. The lattice is centred in Ω's bounding box and has as many whole
+  /// cubes as fit into it; cubes that a face of Ω's boundary cuts are left out. The others fill Ω
+  /// if it is a union of cubes of this lattice, else all of Ω except a layer at its boundary.
   /// @throws InputError  h <= 0, no such cube
   CubeLattice cubes_within(const TetrahedralMesh &mesh, double h);
 

@@ -20,7 +20,7 @@ namespace plumbline::method
                                                  : given.load[i * given.n_components]);
       if (!(result.mass.back() > 0))
         throw NumericalError("a shape function has an integral that is not positive, so that there "
-                             "are no lumped masses to measure eigenvalues by");
+                             "are no lumped masses to define eigenvalues with");
     }
     algebra::CsrMatrix &rows = result.rows;
     rows.start.assign(1, 0);

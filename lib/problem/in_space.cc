@@ -250,8 +250,8 @@ namespace plumbline::problem
             std::make_shared<const geometry::TetrahedralMesh>(geometry::refine(*problem.mesh));
       if (size < h * (1 - rounding))
         throw InputError("h = " + std::to_string(h) +
-                         " is not the mesh size of the problem's mesh, halved some times; give "
-                         "such a size");
+                         " is not the mesh size of the problem's mesh divided by a power of 2; "
+                         "give such a size");
     }
     problem.lattice = problem.lattice.at_spacing(h);
     problem.make_tetrahedra = {};

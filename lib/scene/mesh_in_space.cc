@@ -24,7 +24,7 @@ namespace plumbline::scene
       if (side < far * level.h && side * far > level.h)
         return;
       throw InputError("Domain/mesh = " + scene.domain.mesh.name +
-                       ": edges of its cells are some " + base::to_text(side, 3) +
+                       ": edges of its cells are about " + base::to_text(side, 3) +
                        " long, but Study/h = " + base::to_text(level.h, 4) +
                        " and the horizon = " + base::to_text(level.horizon, 4) +
                        "; are the lengths of mesh and scene in the same unit? Scale the mesh, or "

@@ -20,7 +20,7 @@ namespace plumbline::scene
     {
       const DomainSection &domain = scene.domain;
       needs(domain.mesh.is_lattice() || domain.mesh.is_file(), "Domain/mesh = " + domain.mesh.name,
-            "write lattice, or a file .msh or .geo whose physical volumes are meshed by "
+            "write lattice, or a file .msh or .geo whose physical volumes are meshed with "
             "tetrahedra");
       require(domain.mesh.is_file() ||
                   (!domain.solid.include.empty() && domain.boxes.exclude.empty()),

@@ -9,8 +9,9 @@
 
 namespace plumbline::study
 {
-  /// What the average over a cube stands for: itself; of a mesh an equal part of Ω, whose cubes
-  /// leave out a layer at its boundary, so that norms of levels are those of one domain.
+  /// The volume that the average over a cube represents: that of the cube; on a mesh, whose cubes
+  /// leave out a layer at the boundary of Ω, an equal part of Ω, so that norms at all levels are
+  /// those of one domain.
   double cell_volume(const problem::Problem<3> &problem);
 
   /// The L2 distance of averages over the cells of a problem; `b` empty: 0.

@@ -88,8 +88,8 @@ namespace plumbline::study
       if (method.family() == method::MethodFamily::meshfree &&
           scene.methods.nodes.kind() == scene::NodeKind::centres)
         return "its nodes are lattice centres, which Domain/mesh = " + mesh.name +
-               " has none of in three dimensions; write Methods/nodes = mesh (the centroids of the "
-               "tetrahedra), or take P1 or DGP0";
+               " does not have in three dimensions; write Methods/nodes = mesh (the centroids of "
+               "the tetrahedra), or take P1 or DGP0";
     }
     if (method.can().count(method::Capability::space) == 0)
       return "it is implemented in two dimensions only, and Domain/dimension = 3; take " +

@@ -9,7 +9,7 @@ from . import _core
 
 class Nodes(NamedTuple):
     """Nodes of a meshfree code, in the order of the file."""
-    nodes: np.ndarray              # places, shape (n, 2) or (n, 3) [length]
+    nodes: np.ndarray              # coordinates, shape (n, 2) or (n, 3) [length]
     volumes: Optional[np.ndarray]  # of their cells, shape (n,) [length^dimension]; None: not in the file
     ids: np.ndarray                # as the file numbers them, shape (n,)
     groups: np.ndarray             # types, blocks or names of groups, shape (n,)
@@ -18,16 +18,16 @@ class Nodes(NamedTuple):
 def read_nodes(file, *, format=None, volume=None, style=None, frame=-1, dimension=None):
     """Read the nodes and volumes of a meshfree code from a file, for check() and weights().
 
-    file    of one of these formats, told by its ending or first line:
+    file    in one of these formats, recognised by its ending or first line:
             "lammps data", "lammps dump" (text), "peridigm" (lines x y z block volume), "csv"
             (columns x, y, [z], volume, [id], [group]); all other formats by meshio, which must be
             installed: VTU and VTK, Exodus (with netCDF4), Abaqus .inp, gmsh .msh ... The
-            cells of a mesh become nodes at their centroids; of files without cells the points are
-            nodes
-    format  one of these names, or "meshio"; default: told by the file
+            cells of a mesh become nodes at their centroids; in files without cells the points are
+            the nodes
+    format  one of these names, or "meshio"; default: recognised from the file
     volume  the name of the column or of the point data that holds volumes; default: "volume"
     style   of the atoms of a LAMMPS data file: "peri" (with volumes) or "atomic"; default: as the
-            file says behind "Atoms #"
+            file says after "Atoms #"
     frame   of a LAMMPS dump: 0 is the first, -1 the last
     dimension  2 or 3; default: 2 where all z are equal
 
@@ -150,7 +150,7 @@ def _lammps_data(path, volume, style, frame):
     said = lines[at].split("#")[1].strip() if "#" in lines[at] else ""
     style = style or said
     if style not in _styles:
-        _fail(path, (f"atoms are of style '{style}'" if style else "the style of atoms is not said")
+        _fail(path, (f"atoms are of style '{style}'" if style else "the style of atoms is not given")
               + "; give style='peri' or style='atomic'", at + 1)
     head = [text.split() for text in lines[:at]]
     n = next((int(words[0]) for words in head if words[1:2] == ["atoms"] and words[0].isdigit()), None)
@@ -162,7 +162,7 @@ def _lammps_data(path, volume, style, frame):
         if text.strip():
             rows.append((number, text))
     if n is None or len(rows) != n:
-        _fail(path, f"has {len(rows)} atoms, but its head says {n}; the file may be truncated")
+        _fail(path, f"has {len(rows)} atoms, but its header says {n}; the file may be truncated")
     columns = _styles[style]
     values = _table(path, rows, at + 2, max(c for c in columns if c is not None) + 1,
                     f"atom style {style}")
@@ -200,7 +200,7 @@ def _lammps_dump(path, volume, style, frame):
         scaled = np.stack([column[name] for name in ("xs", "ys", "zs")], axis=1)
         x = bounds[:, 0] + scaled * (bounds[:, 1] - bounds[:, 0])
     else:
-        _fail(path, "has neither x y z nor xs ys zs; write them by 'dump custom'", k + 1)
+        _fail(path, "has neither x y z nor xs ys zs; write them with 'dump custom'", k + 1)
     if volume and volume not in column:
         _fail(path, f"has no column '{volume}', only " + " ".join(names), k + 1)
     volume = volume or ("volume" if "volume" in column else None)

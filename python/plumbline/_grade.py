@@ -34,7 +34,7 @@ def grade(points, values=None, problem=None, *, h=()):
     grade(points, values, "NLB-07")               arrays
 
     points   those of the certificate in any order, shape (n, 2), in three dimensions (n, 3); or
-             the name of a CSV file with their coordinates and values (x,y,u; of vectors x,y,u,v or
+             the name of a CSV file with their coordinates and values (x,y,u; for vectors x,y,u,v or
              x,y,u1,u2), or a list of such files, one for each grid
     values   u there, an array of shape (n,) or (n, n_components) for vectors; or, if h is given, a
              list of such arrays, one for each grid from coarse to fine

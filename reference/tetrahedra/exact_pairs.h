@@ -6,7 +6,7 @@
 
 namespace plumbline::reference
 {
-  /// A triangle among many, with the numbers that shared values are found by.
+  /// A triangle among many, with the numbers by which shared values are found.
   struct NumberedFace
   {
     const PairFace *face = nullptr;
@@ -14,11 +14,11 @@ namespace plumbline::reference
     unsigned int number = 0;
   };
 
-  /// ∬_{F×G} f(|x - y|) of a FacePotential f in closed form but for integrals along lines, which
-  /// Gauss rules give to round-off: see PairForm. Each sum carries a bound of its round-off. Where
-  /// that exceeds a tolerance, since edges are nearly parallel to the other plane, the same is done
-  /// in long double, and then with 113 and 237 bits. Exactly parallel edges and planes have a form
-  /// of their own.
+  /// ∬_{F×G} f(|x - y|) of a FacePotential f in closed form except for integrals along lines,
+  /// which Gauss rules give to round-off: see PairForm. Each sum carries a bound of its round-off.
+  /// Where that exceeds a tolerance, since edges are nearly parallel to the other plane, the same
+  /// is done in long double, and then with 113 and 237 bits. Exactly parallel edges and planes have
+  /// a form of their own.
   class ExactPairs
   {
   public:

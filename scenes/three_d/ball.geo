@@ -2,7 +2,7 @@
 SetFactory("OpenCASCADE");
 DefineConstant[ h = 0.5, delta = 0.5 ];
 
-// faces of the outer polyhedron lie inside its sphere: the layer is h/4 wider than it need be
+// faces of the outer polyhedron lie inside its sphere: the layer is h/4 wider than it needs to be
 Sphere(1) = {0, 0, 0, 1};
 Sphere(2) = {0, 0, 0, 1 + delta + h / 4};
 BooleanFragments{ Volume{2}; Delete; }{ Volume{1}; Delete; }
@@ -11,4 +11,4 @@ Physical Volume("collar") = {2};
 
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;
-Mesh.OptimizeThreshold = 0.7; // thin tetrahedra have less accurate entries
+Mesh.OptimizeThreshold = 0.7; // fewer thin tetrahedra

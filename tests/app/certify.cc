@@ -151,7 +151,7 @@ TEST(Certify, refuses_scenes_that_are_none)
   const Outcome twice = run("certify " + scene + " --set Output/points=" +
                             write("twice_there.csv", "x,y\n.5,.5\n.1,.2\n.5,.5\n"));
   EXPECT_EQ(twice.exit_code, 2) << twice.err;
-  expect_found(twice.err, "(0.5, 0.5) is there twice");
+  expect_found(twice.err, "(0.5, 0.5) is listed twice");
   const Outcome zero = run("certify " + scene + " --set 'Problem/solution=0*x'");
   EXPECT_EQ(zero.exit_code, 3) << zero.err;
   expect_found(zero.err, "u is 0 at all points");
@@ -238,7 +238,7 @@ TEST(Grade, refuses_other_points_and_options)
       "grade " + write("less.csv", text.substr(0, text.rfind('\n', text.size() - 2) + 1)) + end,
       "lacks 1 of the 4 points of the certificate, e.g. (0.1, 0.2)");
   expect_no_grade("grade " + write("more.csv", text + "1,0.2,0.6\n") + end,
-                  "line 6: (0.6, 0.2) is no point of the certificate");
+                  "line 6: (0.6, 0.2) is not a point of the certificate");
   expect_no_grade("grade " + write("twice.csv", text + "1,0.2,0.1\n") + end, "is in line 5, too");
   expect_no_grade("grade " + write("no_u.csv", "x,y\n0.1,0.2\n") + end, "no column u");
   expect_no_grade("grade " + file + end + " --h .1,.05", "2 mesh sizes for 1 files");

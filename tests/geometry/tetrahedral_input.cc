@@ -135,7 +135,7 @@ TEST_F(TetrahedraFile, that_cannot_be_used_are_refused)
   expect_fault(msh("6 .2 .2 -3\n7 .3 .2 .5\n8 .2 .3 .5\n", upper + "2 4 2 2 2 7 8 6 4\n"),
                "overlap; take one out");
   expect_fault(msh("6 .5 .5 0\n", upper + "2 4 2 2 2 1 6 2 5\n3 4 2 2 2 1 3 6 5\n"),
-               "is covered in part by another one, of cell");
+               "is partly covered by another one, of cell");
   expect_fault(msh("", "1 4 2 1 1 1 2 3 4\n"), "has the physical volumes 'omega'; give names that "
                                                "begin with 'omega' and 'collar'");
   expect_fault(msh("", "1 2 2 1 1 1 2 3\n"), "has the physical volumes (none); give names");

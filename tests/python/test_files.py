@@ -54,7 +54,7 @@ def test_lammps_data_and_dump_give_its_atoms(lammps):
 
 
 def test_truncated_lammps_files_are_refused(lammps):
-    for name, reason in [("cube.data", "atoms, but its head says 64"), ("cube.dump", "is truncated")]:
+    for name, reason in [("cube.data", "atoms, but its header says 64"), ("cube.dump", "is truncated")]:
         text = (lammps / name).read_text().splitlines()
         start = next(k for k, line in enumerate(text) if "Atoms" in line or "ITEM: ATOMS" in line)
         short = lammps / ("short_" + name)
@@ -133,7 +133,7 @@ def test_points_without_cells_are_nodes(tmp_path):
     ("a.txt", "0 0 nan 1 1\n", {}, "coordinate that is not finite"),
     ("a.csv", "x,volume\n0,1\n", {}, "line 1: has no column 'y'"),
     ("a.csv", "x,y\n0\n", {}, "line 2: has 1 columns, the header 2"),
-    ("a.data", "made by hand\n\n1 atoms\n\nAtoms\n\n1 1 0 0 0\n", {}, "line 5: the style of atoms is not said"),
+    ("a.data", "made by hand\n\n1 atoms\n\nAtoms\n\n1 1 0 0 0\n", {}, "line 5: the style of atoms is not given"),
     ("a.data", "2 atoms\n\nAtoms # full\n\n1 1 0 0 0\n", {}, "atoms are of style 'full'; give style='peri'"),
     ("a.txt", "0 0 0 1 1\n0 0 1 1 1\n", {"dimension": 2}, "z is not the same for all nodes"),
     ("a.txt", "0 0 0 1 1\n", {"format": "exodus"}, "format = 'exodus' is not known; choose of 'lammps data'"),

@@ -74,7 +74,7 @@ def test_a_changed_certificate_is_refused(file, tmp_path):
 
 def test_other_points_are_refused(file):
     points, values = certified(file)
-    with pytest.raises(plumbline.InputError, match="row 0 is no point of the certificate"):
+    with pytest.raises(plumbline.InputError, match="row 0 is not a point of the certificate"):
         plumbline.grade(points + 1e-3, values, file)
     with pytest.raises(plumbline.InputError, match="give all of them"):
         plumbline.grade(points[1:], values[1:], file)

@@ -61,7 +61,7 @@ namespace plumbline::scene
              "triangles: the same boxes as a mesh with its own matrix entries. A file .msh, or "
              ".geo with the constants h and delta, whose physical surfaces are named omega... (the "
              "domain) and collar... (the interaction domain); with Domain/dimension = 3 physical "
-             "volumes, meshed by tetrahedra. Or the name of a deal.II generator, "
+             "volumes, meshed with tetrahedra. Or the name of a deal.II generator, "
              "e.g. hyper_ball_balanced. gmsh meshes .geo files in a separate process with limits "
              "(120 CPU seconds, 4 GiB; the environment variables PLUMBLINE_GMSH_SECONDS and "
              "PLUMBLINE_GMSH_GIBIBYTES change them); commands that start programs or write files "
