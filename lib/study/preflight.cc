@@ -35,7 +35,8 @@ namespace plumbline::study
 
   namespace
   {
-    /// In space `all` leaves out methods on tetrahedra, which take far more memory than others.
+    /// On lattices in space `all` leaves out methods on tetrahedra, which take far more memory than
+    /// others.
     bool has_its_nodes(const scene::Scene &scene, const Method &method)
     {
       return !scene.domain.is_in_space() || scene.domain.mesh.is_file() ||
