@@ -159,9 +159,9 @@ namespace plumbline::app
       results.provenance = provenance();
       if (const auto spectrum = study::field_spectrum(scene.random))
         results.provenance["random field"] = words_of(*spectrum);
-      if (const std::string work = work_of_ranks(scene, methods);
-          communicator.n_ranks() > 1 && !work.empty())
-        results.provenance["work of ranks"] = work;
+      if (communicator.n_ranks() > 1)
+        if (const std::string work = work_of_ranks(scene, methods); !work.empty())
+          results.provenance["work of ranks"] = work;
       return results;
     }
 

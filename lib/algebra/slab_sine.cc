@@ -57,7 +57,8 @@ namespace plumbline::algebra
       double least = std::numeric_limits<double>::infinity(), largest = -least;
       for (const double value : values)
       {
-        least = std::min(least, value);
+        least =
+            std::min(least, std::isnan(value) ? -std::numeric_limits<double>::infinity() : value);
         largest = std::max(largest, value);
       }
       check_positive(-slabs.ranks().largest(-least), slabs.ranks().largest(largest));

@@ -318,6 +318,11 @@ namespace plumbline::analysis
       constexpr int highest = 4;
       constexpr double tolerance = 1e-8;
       const unsigned int nc = matrix.n_components;
+      dealii::Point<dim> centre; // polynomials about it cancel least, wherever the nodes are
+      for (const dealii::Point<dim> &x : matrix.nodes)
+        centre += (x - dealii::Point<dim>()) / static_cast<double>(matrix.nodes.size());
+      const auto from_centre = [&](const dealii::Point<dim> &x)
+      { return dealii::Point<dim>(x - centre); };
       for (int degree = 1; degree <= highest; ++degree)
       {
         double worst = 0, scale = size * std::pow(kernel.horizon(), degree);
@@ -325,11 +330,12 @@ namespace plumbline::analysis
           for (unsigned int d = 0; d < nc; ++d)
           {
             const Values y = act(matrix, [&](const dealii::Point<dim> &x, unsigned int c)
-                                 { return c == d ? power<dim>(x, alpha) : 0; });
+                                 { return c == d ? power<dim>(from_centre(x), alpha) : 0; });
             for (std::size_t i = 0; i < y.size(); ++i)
               if (is_inner[i / nc] != 0)
               {
-                const double exact = image<dim>(kernel, matrix.nodes[i / nc], alpha, i % nc, d);
+                const double exact =
+                    image<dim>(kernel, from_centre(matrix.nodes[i / nc]), alpha, i % nc, d);
                 scale = std::max(scale, std::abs(exact));
                 worst = std::max(worst, std::abs(y[i] - exact));
               }

@@ -98,17 +98,17 @@ namespace plumbline::method
       std::vector<double> low(problem.n_components, infinity),
           high(problem.n_components, -infinity);
       auto value = around.values.begin();
-      for_each_position(range, problem.n_components,
-                        [&](unsigned int c, const std::array<int, 3> &at)
-                        {
-                          if (is_given(at))
-                          {
-                            *value = problem.constraint.value(place(at), c);
-                            low[c] = std::min(low[c], *value);
-                            high[c] = std::max(high[c], *value);
-                          }
-                          ++value;
-                        });
+      const auto evaluate = [&](unsigned int c, const std::array<int, 3> &at)
+      {
+        if (is_given(at))
+        {
+          *value = problem.constraint.value(place(at), c);
+          low[c] = std::min(low[c], *value);
+          high[c] = std::max(high[c], *value);
+        }
+        ++value;
+      };
+      ranks.together([&] { for_each_position(range, problem.n_components, evaluate); });
       for (unsigned int c = 0; c < problem.n_components; ++c)
       {
         low[c] = -ranks.largest(-low[c]);
@@ -402,11 +402,15 @@ namespace plumbline::method
         functionals[d].push_back(load_functional(coordinate(d, i)));
     Vector result(static_cast<Vector::size_type>(place_in(own, n_components_, own.lower)));
     auto value = result.begin();
-    for (unsigned int c = 0; c < n_components_; ++c)
-    {
-      const auto of_component = field.apply(c, functionals, nodes_.is_free);
-      value = std::copy(of_component.begin(), of_component.end(), value);
-    }
+    node_slabs_.ranks().together(
+        [&]
+        {
+          for (unsigned int c = 0; c < n_components_; ++c)
+          {
+            const auto of_component = field.apply(c, functionals, nodes_.is_free);
+            value = std::copy(of_component.begin(), of_component.end(), value);
+          }
+        });
     return result;
   }
 

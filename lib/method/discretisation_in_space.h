@@ -25,9 +25,10 @@ namespace plumbline::method
     std::vector<double> volumes;         ///< of the nodes' cells; empty: all alike [length^3]
     std::vector<double> averages;        ///< over the cells of Ω, shape (n_cells, n_components)
     /// u in the closed domain Ω: trilinear for nodes at vertices; for nodes at centres the value of
-    /// a cell that contains x, of either cell on a face between two. Thread-safe.
+    /// a cell that contains x, of either cell on a face between two. Thread-safe;
+    /// of distributed discretisations collective instead.
     std::function<double(const dealii::Point<3> &x, unsigned int component)> value;
-    /// For nodes at vertices: exact in a cell that contains x; else empty.
+    /// For nodes at vertices: exact in a cell that contains x; else empty. As value.
     std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &x, unsigned int component)>
         gradient = {};
   };

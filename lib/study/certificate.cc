@@ -59,6 +59,12 @@ namespace plumbline::study
       return estimate;
     }
 
+    /// NaN if one of them is.
+    double larger(double a, double b)
+    {
+      return std::isnan(a) || a > b ? a : b;
+    }
+
     double spacing(const problem::Problem<2> &problem)
     {
       return problem.h;
@@ -134,8 +140,8 @@ namespace plumbline::study
       double largest = 0;
       for (std::size_t i = 0; i < points.size(); ++i)
         for (unsigned int c = 0; c < problem.n_components; ++c)
-          largest = std::max(largest, std::abs(values[i * problem.n_components + c] -
-                                               problem.solution->value(points[i], c)));
+          largest = larger(largest, std::abs(values[i * problem.n_components + c] -
+                                             problem.solution->value(points[i], c)));
       return largest;
     }
 
@@ -184,7 +190,7 @@ namespace plumbline::study
       for (std::size_t i = 0; i < n_places; ++i)
         for (unsigned int c = 0; c < n_components; ++c)
           bounds[i] =
-              std::max(bounds[i], safety * std::abs(convergence.correction[i * n_components + c]));
+              larger(bounds[i], safety * std::abs(convergence.correction[i * n_components + c]));
       const double of_mean = bounds.back();
       bounds.pop_back();
       raise_to_mean(bounds, round_off);
@@ -287,8 +293,7 @@ namespace plumbline::study
     {
       double largest = 0;
       for (std::size_t c = 0; c < a.size(); ++c)
-        if (const double one = std::abs(a[c] - b[c]); !(one <= largest)) // NaN stays
-          largest = one;
+        largest = larger(largest, std::abs(a[c] - b[c]));
       return largest;
     }
   } // namespace
@@ -373,7 +378,8 @@ namespace plumbline::study
         value.digits = certified_digits(value.bound, certificate.size);
         if (i == places.size())
         {
-          if (!scene.methods.nodes.are_vertices())
+          if (!scene.methods.nodes.are_vertices() &&
+              !(scene.domain.is_in_space() && scene.domain.mesh.is_file()))
             certificate.mean = value;
           break;
         }

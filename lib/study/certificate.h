@@ -65,7 +65,7 @@ namespace plumbline::study
     CertifiedWay galerkin, meshfree;
     std::vector<CertifiedValue> points;
     std::vector<CertifiedRule> rules;   ///< the one that confirms is the first
-    std::optional<CertifiedValue> mean; ///< over Ω; empty: cells about vertices do not fill Ω
+    std::optional<CertifiedValue> mean; ///< over Ω; empty: cells do not fill Ω, as about vertices
 
     /// That two ways do not agree on, or that have no bound; the mean is the last, if it is there.
     std::vector<const CertifiedValue *> refused() const;

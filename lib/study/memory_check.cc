@@ -223,6 +223,8 @@ namespace plumbline::study
 
   Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods)
   {
+    if (!scene.domain.mesh.is_lattice())
+      return methods;
     const method::ProblemSize size = lattice_size(scene, scene.study.series.front().levels.front());
     Methods repeated;
     std::copy_if(methods.begin(), methods.end(), std::back_inserter(repeated),

@@ -353,7 +353,7 @@ namespace plumbline::study
           {
             const std::string name = scene::DecisiveError{norm, target}.text();
             const double value = scene::is_largest(norm) ? largest : l2;
-            if (!std::isfinite(value))
+            if (!std::isfinite(value) || !std::isfinite(squares)) // maxima lose NaN
               throw NumericalError("the error " + name + " is not a finite number");
             run.set(name, value);
           }

@@ -8,7 +8,7 @@ from . import _core
 
 
 class Nodes(NamedTuple):
-    """Nodes of a meshfree code, in the order of the file."""
+    """Nodes of a meshfree code, in the order of the file, or of their ids in a LAMMPS dump."""
     nodes: np.ndarray              # coordinates, shape (n, 2) or (n, 3) [length]
     volumes: Optional[np.ndarray]  # of their cells, shape (n,) [length^dimension]; None: not in the file
     ids: np.ndarray                # as the file numbers them, shape (n,)
@@ -41,9 +41,16 @@ def read_nodes(file, *, format=None, volume=None, style=None, frame=-1, dimensio
     if kind not in _readers:
         raise _core.InputError(f"read_nodes: format = '{kind}' is not known; choose of "
                                + ", ".join(f"'{one}'" for one in _readers))
-    x, volumes, ids, groups = _readers[kind](path, volume, style, frame)
+    for name, value, usual in (("volume", volume, None), ("style", style, None), ("frame", frame, -1)):
+        if value != usual and name not in _arguments[kind]:
+            raise _core.InputError(f"read_nodes: {name} = {value!r} is not used by files of the format "
+                                   f"'{kind}'; leave it out")
+    x, volumes, ids, groups, of_cells = _readers[kind](path, volume, style, frame)
     _require_good(path, x, volumes, ids)
-    is_flat = x.shape[1] == 2 or np.ptp(x[:, 2]) == 0
+    is_flat = x.shape[1] == 2 or (np.ptp(x[:, 2]) == 0 and of_cells != 3)
+    if of_cells == 2 and (not is_flat or dimension == 3):
+        _fail(path, "has cells of a surface in space, which have areas and no volumes; give a mesh of "
+                    "tetrahedra or hexahedra, or one in the plane")
     if dimension == 2 and not is_flat:
         raise _core.InputError(f"'{path}': z is not the same for all nodes, so that they are not in "
                                "a plane; give dimension=3")
@@ -92,7 +99,7 @@ def _require_good(path, x, volumes, ids):
             _fail(path, f"node {ids[bad[0]]} has the volume {volumes[bad[0]]:g}; all must be above 0")
 
 
-def _table(path, lines, first, n_columns, what):
+def _table(path, lines, n_columns, what):
     """Numbers from lines (number from 1, text), shape (n, n_columns)."""
     rows = []
     for number, text in lines:
@@ -108,8 +115,8 @@ def _table(path, lines, first, n_columns, what):
 
 def _peridigm(path, volume, style, frame):
     lines = [(k, text.split("#")[0]) for k, text in enumerate(_lines(path), 1)]
-    rows = _table(path, [one for one in lines if one[1].strip()], 1, 5, "x y z block volume")
-    return rows[:, :3], rows[:, 4], np.arange(1, len(rows) + 1), rows[:, 3].astype(int)
+    rows = _table(path, [one for one in lines if one[1].strip()], 5, "x y z block volume")
+    return rows[:, :3], rows[:, 4], np.arange(1, len(rows) + 1), rows[:, 3].astype(int), None
 
 
 def _csv(path, volume, style, frame):
@@ -135,7 +142,7 @@ def _csv(path, volume, style, frame):
         groups.append(words[names.index("group")].strip() if "group" in names else "")
     x = np.array([columns[name] for name in axes]).T.reshape(-1, len(axes))
     ids = np.array(columns["id"]).astype(int) if "id" in names else np.arange(len(x))
-    return x, np.array(columns[volume]) if volume else None, ids, np.array(groups)
+    return x, np.array(columns[volume]) if volume else None, ids, np.array(groups), None
 
 
 # Columns of LAMMPS data files by atom style: id, type, volume, x, y, z (positions).
@@ -164,11 +171,11 @@ def _lammps_data(path, volume, style, frame):
     if n is None or len(rows) != n:
         _fail(path, f"has {len(rows)} atoms, but its header says {n}; the file may be truncated")
     columns = _styles[style]
-    values = _table(path, rows, at + 2, max(c for c in columns if c is not None) + 1,
+    values = _table(path, rows, max(c for c in columns if c is not None) + 1,
                     f"atom style {style}")
     volumes = None if columns[2] is None else values[:, columns[2]]
     return (values[:, columns[3]:columns[5] + 1], volumes, values[:, 0].astype(int),
-            values[:, 1].astype(int))
+            values[:, 1].astype(int), None)
 
 
 def _lammps_dump(path, volume, style, frame):
@@ -177,37 +184,45 @@ def _lammps_dump(path, volume, style, frame):
     if not -len(starts) <= frame < len(starts):
         _fail(path, f"has {len(starts)} frames, so that there is no frame {frame}")
     k = starts[frame]
-    n, bounds = None, []
+    n, box = None, None
     while k < len(lines) and not lines[k].startswith("ITEM: ATOMS"):
         if lines[k].startswith("ITEM: NUMBER OF ATOMS") and k + 1 < len(lines):
-            n = int(_table(path, [(k + 2, lines[k + 1])], k + 2, 1, "the number of atoms")[0, 0])
+            n = int(_table(path, [(k + 2, lines[k + 1])], 1, "the number of atoms")[0, 0])
         if lines[k].startswith("ITEM: BOX BOUNDS"):
-            if "xy" in lines[k].split():
-                _fail(path, "the box is triclinic; write x y z instead of xs ys zs", k + 1)
-            bounds = _table(path, list(enumerate(lines[k + 1:k + 4], k + 2)), k + 2, 2, "box bounds")
+            box = k
         k += 1
     if k >= len(lines) or n is None:
         _fail(path, "has no ITEM: ATOMS in this frame; the file may be truncated")
     names = lines[k].split()[2:]
     if len(lines) < k + 1 + n:
         _fail(path, f"has {len(lines) - k - 1} of {n} atoms; the file is truncated")
-    values = _table(path, list(enumerate(lines[k + 1:k + 1 + n], k + 2)), k + 2, len(names),
-                    "ITEM: ATOMS " + " ".join(names))
-    column = {name: values[:, i] for i, name in enumerate(names)}
-    if all(name in column for name in ("x", "y", "z")):
-        x = np.stack([column[name] for name in ("x", "y", "z")], axis=1)
-    elif all(name in column for name in ("xs", "ys", "zs")) and len(bounds) == 3:
-        scaled = np.stack([column[name] for name in ("xs", "ys", "zs")], axis=1)
-        x = bounds[:, 0] + scaled * (bounds[:, 1] - bounds[:, 0])
-    else:
-        _fail(path, "has neither x y z nor xs ys zs; write them with 'dump custom'", k + 1)
-    if volume and volume not in column:
+    axes = next((axes for axes in (("x", "y", "z"), ("xs", "ys", "zs"))
+                 if all(name in names for name in axes)), None)
+    if axes is None:
+        _fail(path, "has neither x y z nor xs ys zs; write them by 'dump custom'", k + 1)
+    if volume and volume not in names:
         _fail(path, f"has no column '{volume}', only " + " ".join(names), k + 1)
-    volume = volume or ("volume" if "volume" in column else None)
+    volume = volume or ("volume" if "volume" in names else None)
+    wanted = [name for name in (*axes, volume, "id", "type") if name in names]
+    rows = []
+    for number, text in enumerate(lines[k + 1:k + 1 + n], k + 2):
+        words = text.split()
+        if len(words) < len(names):
+            _fail(path, f"has {len(words)} columns where ITEM: ATOMS has {len(names)}", number)
+        rows.append((number, " ".join(words[names.index(name)] for name in wanted)))
+    values = _table(path, rows, len(wanted), "ITEM: ATOMS " + " ".join(wanted))
+    column = {name: values[:, i] for i, name in enumerate(wanted)}
+    x = np.stack([column[name] for name in axes], axis=1)
+    if axes[0] == "xs":
+        if box is None or "xy" in lines[box].split():
+            _fail(path, "xs ys zs need the bounds of a box that is not triclinic; write x y z", k + 1)
+        bounds = _table(path, list(enumerate(lines[box + 1:box + 4], box + 2)), 2, "box bounds")
+        x = bounds[:, 0] + x * (bounds[:, 1] - bounds[:, 0])
     ids = column.get("id", np.arange(1, n + 1)).astype(int)
     order = np.argsort(ids, kind="stable")  # LAMMPS writes atoms in any order
     groups = column.get("type", np.ones(n)).astype(int)
-    return (x[order], None if volume is None else column[volume][order], ids[order], groups[order])
+    return (x[order], None if volume is None else column[volume][order], ids[order], groups[order],
+            None)
 
 
 # Tetrahedra or triangles that cells consist of, by corners.
@@ -255,7 +270,9 @@ def _meshio(path, volume, style, frame):
         of = volume or ("volume" if "volume" in names else None)
         volumes = None if of is None else np.asarray(mesh.point_data[of], float).ravel()
         n = len(points)
-        return points, volumes, np.arange(n), np.zeros(n, int)
+        return points, volumes, np.arange(n), np.zeros(n, int), None
+    if volume:
+        _fail(path, f"has cells, whose volumes are known; leave volume = '{volume}' out")
     for block in solid:
         if block.type not in _pieces:
             _fail(path, f"has cells of type '{block.type}'; choose linear cells: " + ", ".join(_pieces))
@@ -272,8 +289,12 @@ def _meshio(path, volume, style, frame):
         of = next(iter(data.values()), None)
         groups.append(np.asarray(of[k]) if of is not None else np.full(len(size), k))
     x = np.concatenate(places)
-    return x, np.concatenate(volumes), np.arange(len(x)), np.concatenate(groups)
+    return x, np.concatenate(volumes), np.arange(len(x)), np.concatenate(groups), highest
 
 
 _readers = {"lammps data": _lammps_data, "lammps dump": _lammps_dump, "peridigm": _peridigm,
             "csv": _csv, "meshio": _meshio}
+
+# The arguments of read_nodes that a format uses.
+_arguments = {"lammps data": ("style",), "lammps dump": ("volume", "frame"), "peridigm": (),
+              "csv": ("volume",), "meshio": ("volume",)}

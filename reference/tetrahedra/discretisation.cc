@@ -137,31 +137,45 @@ namespace plumbline::reference
         return result;
       }
 
-      /// The rows of the free unknowns, and a note on how they were made. Quadrature is an
-      /// independent check.
+      /// The rows of the free unknowns, and a note on how they were made. Of vertices moved off a
+      /// lattice by quadrature: with the lattice around them, edges are parallel in so many pairs
+      /// of faces that exact integrals take 50 times as long.
       algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
+      {
+        return problem.make_tetrahedra ? rows_by_quadrature(problem) : exact_rows(problem);
+      }
+
+      /// With quadrature as an independent check.
+      algebra::CsrMatrix exact_rows(const problem::Problem<3> &problem)
       {
         const bool is_continuous = space_->is_continuous();
         FaceRule exact = FaceRule::exact();
-        exact.spacing = problem.h(); // of vertices that are not moved
         const FaceRule check = FaceRule::quadrature(1);
         FaceRuleUse use;
         algebra::CsrMatrix matrix;
         double change = 0; // of entries, relative to the diagonal
         if (is_of_cubes_)
         {
+          exact.spacing = problem.h();
           const RepeatedRows rows(problem.kernel, problem.h(), is_continuous, exact, &use);
           matrix = rows.on(*space_, lattice_);
           change = RepeatedRows(problem.kernel, problem.h(), is_continuous, check).difference(rows);
         }
         else
         {
-          constexpr std::size_t n_sampled = 4;
+          constexpr double of_files = 1e-12; // of a pair
+          exact.tolerance = of_files;
           matrix = assemble_by_faces(*space_, problem.kernel, n_unknowns(), exact, &use);
-          change = difference(
-              assemble_by_faces(*space_, problem.kernel, std::min(n_sampled, n_unknowns()), check),
-              matrix);
+          change =
+              difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check), matrix);
         }
+        constexpr double most_error = 1e-10, most_change = .25;
+        if (!(use.error <= most_error) || !(change <= most_change))
+          throw NumericalError("exact integrals over pairs of faces are off by " +
+                               base::to_text(use.error, 1) +
+                               " of the diagonal by their bound, and " + base::to_text(change, 1) +
+                               " by quadrature, since tetrahedra are too thin; give a mesh without "
+                               "thin tetrahedra (Mesh.OptimizeThreshold of gmsh)");
         const auto &[n_double, n_long, n_quad, n_octuple] = use.n_pairs;
         diagnostics_.notes.push_back(
             "entries exact to round-off by integrals along lines for " +
@@ -172,6 +186,33 @@ namespace plumbline::reference
             " of the diagonal; quadrature over pairs of faces would change " +
             (is_of_cubes_ ? "them" : "a sample of them") + " by " + base::to_text(change, 1));
         return matrix;
+      }
+
+      algebra::CsrMatrix rows_by_quadrature(const problem::Problem<3> &problem)
+      {
+        const auto rows = [&](std::size_t n, unsigned int refinement)
+        { return assemble_by_faces(*space_, problem.kernel, n, FaceRule::quadrature(refinement)); };
+        algebra::CsrMatrix matrix = rows(n_unknowns(), 0);
+        const double error = difference(rows(n_sampled(), 1), matrix); // relative to the diagonal
+        constexpr double too_much = .01;
+        if (!(error <= too_much))
+          throw NumericalError("entries by quadrature over pairs of faces are wrong by some " +
+                               base::to_text(error, 1) +
+                               " of the diagonal, since tetrahedra are thin; choose a smaller "
+                               "Methods/perturbation or Study/m, or give a mesh (Domain/mesh), on "
+                               "which they are exact");
+        diagnostics_.notes.push_back(
+            "entries by quadrature over pairs of faces; a finer rule changes a sample of them by " +
+            base::to_text(error, 1) + " of the diagonal at most" +
+            (space_->is_continuous() ? ", and linear fields are exact with any rule" : ""));
+        return matrix;
+      }
+
+      /// Rows for a check: the thinnest cells come first.
+      std::size_t n_sampled() const
+      {
+        constexpr std::size_t n = 4;
+        return std::min(n, n_unknowns());
       }
 
       geometry::CubeLattice lattice_;

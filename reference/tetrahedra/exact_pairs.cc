@@ -21,8 +21,8 @@ namespace plumbline::reference
     /// Heights of an edge over a plane that differ by less are equal; coordinates of some horizons
     /// are rounded by that much.
     constexpr double rounding = 2e-14;
-    /// The same with so many digits that parallel edges need no other form, but for exact ones.
-    constexpr double no_rounding = 0;
+    /// The same with 237 bits: coordinates are exact, and what is not parallel differs by more.
+    constexpr double no_rounding = 1e-55;
     /// Faces nearer than this [horizons] take functions that are regular at 0.
     constexpr double compact_from = .1;
 

@@ -49,6 +49,43 @@ TEST(Ranks, share_meshes_without_a_word)
   fs::remove_all(folder);
 }
 
+// Meshes in space: each rank repeats the work, alone and on two.
+TEST(Ranks, repeat_meshes_in_space_and_say_so)
+{
+  const fs::path folder = temporary("ranks");
+  const std::string ball = std::string(PLUMBLINE_SCENES) +
+                           "/three_d/ball.prm --levels 1 --methods FA,P1 --threads 1 "
+                           "--set Expected/verdicts= --set Expected/rates= -o " +
+                           folder.string();
+  EXPECT_EQ(run("run " + ball + " --quiet").exit_code, 0);
+  expect_found(read(folder / "results.json"), "entries exact to round-off");
+  EXPECT_EQ(read(folder / "results.json").find("work of ranks"), std::string::npos);
+  fs::remove_all(folder);
+  EXPECT_EQ(run_on_two_ranks("run " + ball).exit_code, 0);
+  expect_found(read(folder / "results.json"), "\"work of ranks\": \"repeated by each: FA, P1");
+  fs::remove_all(folder);
+}
+
+// A constraint that is not finite in one slab is refused by all, at once.
+TEST(Ranks, share_a_fault_of_one_slab)
+{
+  const std::string file =
+      write("ranks_fault.prm", "subsection Domain\n set dimension = 3\n"
+                               " set boxes = 0,0,0 : 1,1,1\nend\n"
+                               "subsection Problem\n set load = 1\n"
+                               " set constraint = x + 0*sqrt(1.49999 - z)\nend\n"
+                               "subsection Methods\n set names = FA\nend\n"
+                               "subsection Study\n set regime = m\n set horizon = 1/2\n"
+                               " set h = 1/8, 1/16\n set norms = averages L2\nend\n"
+                               "subsection Reference\n set method = Q1\nend\n");
+  const fs::path folder = temporary("ranks");
+  const Outcome outcome = run_on_two_ranks("run " + file + " --threads 1 -o " + folder.string());
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err.find("MPI_ABORT"), std::string::npos) << outcome.err;
+  expect_found(outcome.err, "not a finite number");
+  fs::remove_all(folder);
+}
+
 TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
 {
   const fs::path folder = temporary("ranks");

@@ -126,7 +126,32 @@ def test_points_without_cells_are_nodes(tmp_path):
         plumbline.read_nodes(tmp_path / "p.vtu", volume="W")
 
 
+def test_triclinic_boxes_and_columns_of_text_are_read(tmp_path):
+    head = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
+            "0 1 0.1\n0 1 0\n0 1 0\n")
+    (tmp_path / "a.dump").write_text(head + "ITEM: ATOMS id element x y z\n2 C 1 2 3\n1 H 4 5 6\n")
+    read = plumbline.read_nodes(tmp_path / "a.dump")
+    assert np.array_equal(read.nodes, [[4, 5, 6], [1, 2, 3]]) and list(read.ids) == [1, 2]
+    (tmp_path / "a.dump").write_text(head + "ITEM: ATOMS id xs ys zs\n2 0 0 0\n1 1 1 1\n")
+    with pytest.raises(plumbline.InputError, match="triclinic; write x y z"):
+        plumbline.read_nodes(tmp_path / "a.dump")
+
+
+def test_surfaces_in_space_are_refused_and_single_cells_are_solid(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    meshio.write_points_cells(tmp_path / "s.vtu", points, [("triangle", np.array([[0, 1, 2], [0, 1, 3]]))])
+    with pytest.raises(plumbline.InputError, match="surface in space"):
+        plumbline.read_nodes(tmp_path / "s.vtu")
+    meshio.write_points_cells(tmp_path / "t.vtu", points, [("tetra", np.array([[0, 1, 2, 3]]))])
+    read = plumbline.read_nodes(tmp_path / "t.vtu")
+    assert read.nodes.shape == (1, 3) and np.allclose(read.volumes, 1 / 6)
+    with pytest.raises(plumbline.InputError, match="has cells, whose volumes are known"):
+        plumbline.read_nodes(tmp_path / "t.vtu", volume="V")
+
+
 @pytest.mark.parametrize("name, text, given, reason", [
+    ("a.txt", "0 0 0 1 1\n", {"style": "peri"}, "style = 'peri' is not used by files of the format 'peridigm'"),
     ("a.txt", "0 0 0 1\n", {}, "line 1: has 4 columns where x y z block volume needs 5"),
     ("a.txt", "# none\n", {}, "has no nodes"),
     ("a.txt", "0 0 0 1 1\n1 0 0 1 -2\n", {}, "node 2 has the volume -2; all must be above 0"),
