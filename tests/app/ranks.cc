@@ -76,13 +76,14 @@ TEST(Ranks, share_a_fault_of_one_slab)
                                " set constraint = x + 0*sqrt(1.49999 - z)\nend\n"
                                "subsection Methods\n set names = FA\nend\n"
                                "subsection Study\n set regime = m\n set horizon = 1/2\n"
-                               " set h = 1/8, 1/16\n set norms = averages L2\nend\n"
+                               " set h = 1/8, 1/16\n set norms = averages L2\n set decisive error "
+                               "= averages L2 | reference\nend\n"
                                "subsection Reference\n set method = Q1\nend\n");
   const fs::path folder = temporary("ranks");
   const Outcome outcome = run_on_two_ranks("run " + file + " --threads 1 -o " + folder.string());
   EXPECT_NE(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err.find("MPI_ABORT"), std::string::npos) << outcome.err;
-  expect_found(outcome.err, "not a finite number");
+  expect_found(outcome.err, "it must be a finite number in the domain and its collar");
   fs::remove_all(folder);
 }
 
