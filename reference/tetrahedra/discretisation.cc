@@ -150,13 +150,13 @@ namespace plumbline::reference
       {
         const bool is_continuous = space_->is_continuous();
         FaceRule exact = FaceRule::exact();
+        exact.spacing = problem.h(); // files may hold lattices, too
         const FaceRule check = FaceRule::quadrature(1);
         FaceRuleUse use;
         algebra::CsrMatrix matrix;
         double change = 0; // of entries, relative to the diagonal
         if (is_of_cubes_)
         {
-          exact.spacing = problem.h();
           const RepeatedRows rows(problem.kernel, problem.h(), is_continuous, exact, &use);
           matrix = rows.on(*space_, lattice_);
           change = RepeatedRows(problem.kernel, problem.h(), is_continuous, check).difference(rows);

@@ -148,8 +148,8 @@ namespace plumbline::reference
       constexpr double share = 1e-3;
       const Real distance = (f.x[0] - g.x[0]).norm();
       sum_.size *= 1 + share * distance / std::min(f.least_rise(), g.least_rise());
-      constexpr double least_sine = 1e-3, no_bound = 1e30;
-      if (has_parallel && sine < least_sine && rounding > 0)
+      constexpr double least_sine = 1e-3, no_bound = 1e30, certain = 1e-50;
+      if (has_parallel && sine < least_sine && rounding > certain)
         sum_.size *= no_bound; // what is taken for parallel ought to be so to more digits
       return sum_;
     }

@@ -264,6 +264,19 @@ TEST(ExactPairs, of_nearly_parallel_faces_take_the_digits_that_they_need)
     EXPECT_GT(n, 0u);
 }
 
+// Where digits of double do not suffice, edges that are parallel to each other are so with 237
+// bits, too, although coordinates of the normals are rounded. The faces do not see each other.
+TEST(ExactPairs, of_parallel_edges_out_of_reach_vanish_with_all_digits)
+{
+  const PairFace f({Point<3>(0, 1, -1), Point<3>(.5, 1, -.5), Point<3>(.5, 1.5, -.5)}, {0, 1, 2}),
+      g({Point<3>(0.56582938213832668, 0.91700884141027927, 1.0659206729382276),
+         Point<3>(.5, 1.5, 1), Point<3>(1, 1.5, 1.5)},
+        {3, 4, 5});
+  const ExactPairs exact(kernel_of("constant"), Kind::biharmonic, 1e-16);
+  EXPECT_NEAR(exact(f, g).value, 0, 1e-16);
+  EXPECT_NEAR(exact.precise(f, g), 0, 1e-30);
+}
+
 TEST(ExactEntries, of_the_cells_of_cubes_add_up_to_exact_ones_of_cubes)
 {
   const double h = 1, horizon = 1.7;
