@@ -104,6 +104,9 @@ namespace
     case Reader::meshed:
       (void)geometry::collar_width(geometry::read_mesh(file(), .5, .5));
       break;
+    case Reader::tetrahedra:
+      (void)geometry::read_tetrahedra(file(), 1, .5);
+      break;
     case Reader::nodes:
     {
       const std::string name = file();

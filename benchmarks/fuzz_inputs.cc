@@ -365,6 +365,9 @@ namespace plumbline::benchmarks
         add(Reader::scene, text);
         add(Reader::json_scene, to_json(file.string(), text));
       }
+      else if (ending == ".geo" && text.find("Volume") != std::string::npos)
+        add(Reader::tetrahedra,
+            geometry::mesh_by_gmsh(file.string(), 1, .5, {}, file.string(), 0, 3));
       else if (ending == ".geo")
       {
         add(Reader::script, text);

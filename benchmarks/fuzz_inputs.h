@@ -18,9 +18,10 @@ namespace plumbline::benchmarks
     pictures,   ///< CSV of Random/files
     results,    ///< results.json
     script,     ///< .geo: what may be in it
-    meshed      ///< .geo: meshed by gmsh
+    meshed,     ///< .geo: meshed by gmsh
+    tetrahedra  ///< .msh in three dimensions
   };
-  constexpr unsigned int n_readers = 9;
+  constexpr unsigned int n_readers = 10;
 
   /// The ending of its files, and how many of 1000 inputs it gets: processes are dear.
   struct Share
@@ -28,10 +29,11 @@ namespace plumbline::benchmarks
     const char *name, *ending;
     unsigned int per_mille;
   };
-  constexpr Share shares[n_readers] = {
-      {"scene", ".prm", 300},   {"json scene", ".json", 100}, {"mesh", ".msh", 200},
-      {"nodes", ".csv", 80},    {"bonds", ".csv", 80},        {"pictures", ".csv", 40},
-      {"results", ".json", 99}, {"script", ".geo", 100},      {"meshed", ".geo", 1}};
+  constexpr Share shares[n_readers] = {{"scene", ".prm", 300},   {"json scene", ".json", 100},
+                                       {"mesh", ".msh", 200},    {"nodes", ".csv", 80},
+                                       {"bonds", ".csv", 80},    {"pictures", ".csv", 40},
+                                       {"results", ".json", 59}, {"script", ".geo", 100},
+                                       {"meshed", ".geo", 1},    {"tetrahedra", ".msh", 40}};
 
   /// Sound inputs of each reader.
   using Corpus = std::vector<std::vector<std::string>>;
