@@ -273,8 +273,9 @@ namespace plumbline::study
     }
 
     /// From the rows that every method in space has.
+    /// @param problem  with a load of 1 for each component
     method::DiscreteOperatorOf<3> operator_of(const method::DiscretisationInSpace &discretisation,
-                                              problem::Problem<3> problem)
+                                              const problem::Problem<3> &problem)
     {
       const auto *able = dynamic_cast<const method::HasLinearEquations<3> *>(&discretisation);
       if (able == nullptr)
@@ -287,7 +288,6 @@ namespace plumbline::study
                                " unknowns",
                            "choose a larger h or a smaller m (Study/h, Study/m), or run the first "
                            "levels only (--levels)");
-      problem.load = {[](const dealii::Point<3> &, unsigned int) { return 1.; }};
       return method::discrete_operator(able->equations(problem));
     }
 
@@ -312,7 +312,11 @@ namespace plumbline::study
     {
       const scene::Scene &scene = place.scene();
       if (scene.domain.is_in_space())
-        return {measured(place, method, scene::make_problem_in_space(scene, 0, place.level()))};
+      {
+        const problem::Field<3> unit{[](const dealii::Point<3> &, unsigned int) { return 1.; }};
+        return {measured(place, method,
+                         scene::make_problem_in_space(scene, 0, place.level(), 0, &unit))};
+      }
       const problem::Problem<2> &problem = place.problem();
       Records records = {measured(place, method, problem)};
       if (place.is_finest() && problem.double_well && problem.is_periodic())

@@ -1,39 +1,13 @@
 #include "reference/tetrahedra/space.h"
 
+#include "geometry/tetrahedral_check.h"
+
 #include <algorithm>
-#include <tuple>
 
 namespace plumbline::reference
 {
   namespace
   {
-    /// A side of a cell; those of one face have the same key.
-    struct Side
-    {
-      std::array<unsigned int, 3> key{}; ///< vertices, ascending
-      std::size_t cell = 0;
-      unsigned int opposite = 0; ///< the corner that is not in it
-    };
-
-    std::vector<Side> sides_of(const TetrahedralMesh &mesh)
-    {
-      std::vector<Side> sides;
-      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-        for (unsigned int opposite = 0; opposite < 4; ++opposite)
-        {
-          Side side{{}, cell, opposite};
-          for (unsigned int corner = 0, k = 0; corner < 4; ++corner)
-            if (corner != opposite)
-              side.key[k++] = mesh.cells[cell][corner];
-          std::sort(side.key.begin(), side.key.end());
-          sides.push_back(side);
-        }
-      std::sort(sides.begin(), sides.end(),
-                [](const Side &a, const Side &b)
-                { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
-      return sides;
-    }
-
     void add_jump(SpaceFace &face, unsigned int dof, double value)
     {
       const auto found =
@@ -71,11 +45,11 @@ namespace plumbline::reference
 
   std::vector<SpaceFace> make_faces(const TetrahedralSpace &space)
   {
-    const std::vector<Side> sides = sides_of(space.mesh());
+    const std::vector<geometry::TetrahedralSide> sides = geometry::sides_of(space.mesh());
     std::vector<SpaceFace> faces;
     for (std::size_t k = 0; k < sides.size(); ++k)
     {
-      const Side &side = sides[k];
+      const geometry::TetrahedralSide &side = sides[k];
       const auto slopes = gradients(space.mesh(), side.cell);
       const dealii::Tensor<1, 3> outward = -slopes[side.opposite] / slopes[side.opposite].norm();
       if (k == 0 || side.key != sides[k - 1].key)

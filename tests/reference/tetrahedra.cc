@@ -8,6 +8,7 @@
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/field.h"
 #include "reference/tetrahedra/repeated_rows.h"
+#include "tests/reference/cube_sums.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -206,18 +207,7 @@ TEST(TetrahedralEntries, of_the_cells_of_cubes_add_up_to_exact_ones_of_cubes)
     for (const unsigned int refinement : {0u, 2u})
     {
       const auto matrix = assemble_by_faces(space, kernel, 6, FaceRule::quadrature(refinement));
-      std::map<std::array<int, 3>, double> sums;
-      for (std::size_t k = 0; k < matrix.start[6]; ++k)
-      {
-        std::array<int, 3> cube{};
-        for (unsigned int d = 0; d < 3; ++d)
-          cube[d] = static_cast<int>(std::floor(space.support(matrix.column[k])[d]));
-        sums[cube] += matrix.value[k];
-      }
-      double worst = 0;
-      for (const auto &[cube, sum] : sums)
-        worst = std::max(worst, std::abs(sum - stencil(0, 0, cube[0], cube[1], cube[2])));
-      worst /= stencil(0, 0, 0, 0, 0);
+      const double worst = error_of_cube_sums(matrix, space, stencil);
       EXPECT_LT(worst, refinement == 0 ? 2e-3 : 2e-4) << type;
       EXPECT_LT(worst, before) << type;
       before = worst;
