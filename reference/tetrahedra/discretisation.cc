@@ -171,11 +171,12 @@ namespace plumbline::reference
         }
         constexpr double most_error = 1e-10, most_change = .25;
         if (!(use.error <= most_error) || !(change <= most_change))
-          throw NumericalError("exact integrals over pairs of faces are off by " +
+          throw NumericalError("integrals over pairs of faces have round-off of up to " +
                                base::to_text(use.error, 1) +
-                               " of the diagonal by their bound, and " + base::to_text(change, 1) +
-                               " by quadrature, since tetrahedra are too thin; give a mesh without "
-                               "thin tetrahedra (Mesh.OptimizeThreshold of gmsh)");
+                               " of the diagonal and differ from quadrature by " +
+                               base::to_text(change, 1) +
+                               ": tetrahedra are too thin; give a mesh without thin tetrahedra "
+                               "(Mesh.OptimizeThreshold of gmsh)");
         const auto &[n_double, n_long, n_quad, n_octuple] = use.n_pairs;
         diagnostics_.notes.push_back(
             "entries exact to round-off by integrals along lines for " +
