@@ -92,8 +92,10 @@ namespace plumbline::app
 
   AnalysisRow crack_row(const study::Checkpoints &checkpoints)
   {
-    return {study::crack_analysis(checkpoints, frame_writer(checkpoints.folder / "frames")),
-            report::crack_view};
+    AnalysisRow row{study::crack_analysis(checkpoints, frame_writer(checkpoints.folder / "frames")),
+                    report::crack_view};
+    row.has_checkpoint = true;
+    return row;
   }
 
   AnalysisRow growth_row(const study::Checkpoints &checkpoints)
@@ -107,30 +109,91 @@ namespace plumbline::app
           folder, "damage", loads, nodes,
           {{"damage", false, [&](std::size_t node, unsigned int) { return damage[node]; }}});
     };
-    return {study::growth_analysis(checkpoints, write), report::growth_view};
+    AnalysisRow row{study::growth_analysis(checkpoints, write), report::growth_view};
+    row.has_checkpoint = true;
+    return row;
   }
 
   namespace
   {
-    int exit_code(const AnalysisRow &row, const AnalyseOptions &options,
-                  const study::StudyResults &results)
+    /// A failure that the scene expects ("method: failed") is no error of the command.
+    bool is_expected_failure(const study::StudyResults &results, const study::Record &record)
     {
-      bool has_failed = false, all_hold = true;
+      const study::Key &key = record.key;
+      const std::string subject = key.method + ", " + key.problem + ", " + key.series + ": verdict";
+      return std::any_of(results.expectations.begin(), results.expectations.end(),
+                         [&](const study::Expectation &e) {
+                           return e.subject == subject &&
+                                  e.expected == base::word(study::Outcome::failed) && e.holds;
+                         });
+    }
+
+    /// What went wrong, on standard error.
+    void tell_failures(const study::StudyResults &results)
+    {
       for (const study::Record &record : results.records)
-        if (!row.analysis.are_failures_findings && !record.failure.empty())
-        {
-          has_failed = true;
-          const study::Key &key = record.key;
-          std::cerr << "no result: " << key.label() << ", " << key.series << ", h = " << key.h
-                    << ": " << record.failure << '\n';
-        }
+        if (const study::Key &key = record.key; !record.failure.empty())
+          std::cerr << "no solution: " << key.label()
+                    << (key.problem.empty() ? "" : ", " + key.problem) << ", " << key.series
+                    << ", h = " << key.h << ": " << record.failure << '\n';
+    }
+
+    int exit_code(const AnalysisRow &row, bool check, const study::StudyResults &results)
+    {
+      if (!results.is_complete)
+        return 130;
+      for (const study::Record &record : results.records)
+        if (!row.analysis.are_failures_findings && !record.failure.empty() &&
+            !is_expected_failure(results, record))
+          return 3;
+      const bool holds = std::all_of(results.expectations.begin(), results.expectations.end(),
+                                     [](const study::Expectation &e) { return e.holds; });
+      return check && !holds ? 1 : 0;
+    }
+
+    /// What an interrupted command has left.
+    study::StudyResults earlier_results(const AnalysisRow &row, const io::RecordJournal &journal)
+    {
+      study::StudyResults earlier;
+      if (row.goes_on)
+        earlier = journal.earlier();
+      // all ranks have read before the first one writes, and go on from the same
+      const auto n_found = static_cast<double>(earlier.records.size());
+      if (row.ranks.largest(n_found) != -row.ranks.largest(-n_found))
+        earlier = {};
+      earlier.provenance = provenance();
+      earlier.provenance.insert(row.provenance.begin(), row.provenance.end());
+      return earlier;
+    }
+
+    void write_pages(const AnalysisRow &row, const study::StudyResults &results,
+                     const fs::path &folder)
+    {
+      if (row.write)
+        return row.write(results, folder);
+      for (const std::string &warning : results.warnings)
+        std::cerr << "warning: " << warning << '\n';
+      report::write_study(row.view(results), results, folder);
+    }
+
+    /// What is wanted on standard output; what went wrong on standard error.
+    void tell_end(const AnalysisRow &row, const AnalyseOptions &options,
+                  const study::StudyResults &results, const fs::path &folder)
+    {
+      if (options.json)
+        std::cout << io::to_json(results);
+      else if (!options.quiet && row.print)
+        row.print(results, folder);
+      else if (!options.quiet)
+        std::cout << report::study_summary(row.view(results), results,
+                                           (folder / (row.analysis.name + ".html")).string());
+      if (!results.is_complete)
+        say_interrupted(folder);
+      if (!row.analysis.are_failures_findings)
+        tell_failures(results);
       for (const study::Expectation &one : results.expectations)
-        if (options.check && !one.holds)
-        {
-          all_hold = false;
+        if (results.is_complete && options.check && !one.holds)
           std::cerr << "not as expected: " << one.subject << ": found " << one.found << '\n';
-        }
-      return has_failed ? 3 : all_hold ? 0 : 1;
     }
   } // namespace
 
@@ -146,7 +209,8 @@ namespace plumbline::app
       throw InputError(
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
-    std::optional<ProgressLine> progress(!options.quiet);
+    const bool is_talking = !options.quiet && base::Communicator::all().rank() == 0;
+    std::optional<ProgressLine> progress(is_talking);
     const fs::path folder = output_folder(options, scene);
     const study::Checkpoints checkpoints{folder, is_interrupted};
     const AnalysisRow row = make_row(checkpoints);
@@ -157,47 +221,51 @@ namespace plumbline::app
       analysis.check(scene, methods, options.n_levels);
     progress.reset();
     watch_interrupts();
-    const OutputFolder output(folder, {row.command, scene.name, scene.text},
-                              base::Communicator::alone());
-    require_writable(folder / (analysis.name + ".md"));
-    io::RecordJournal journal(folder / (analysis.name + ".jsonl"),
-                              subject_of(analysis, options, scene));
-    if (!journal.earlier().empty() && !options.quiet)
-      std::cerr << "continuing: " << journal.earlier().size() << " records are in '"
-                << (folder / (analysis.name + ".jsonl")).string() << "' already\n";
+    const OutputFolder output(folder, {row.command, scene.name, scene.text}, row.ranks);
+    const fs::path journal_file = folder / (row.file + ".jsonl");
+    on_first_rank(row.ranks, [&] { require_writable(folder / (row.file + ".json")); });
+    io::RecordJournal journal(journal_file, subject_of(analysis, options, scene));
 
     study::RunControl control;
     control.n_levels = options.n_levels;
     control.budget = options.budget;
-    control.should_stop = is_interrupted;
-    control.earlier.records = journal.earlier();
-    progress.emplace(!options.quiet);
+    control.ranks = row.ranks;
+    control.should_stop = [&] { return row.ranks.any(is_interrupted()); };
+    control.earlier = earlier_results(row, journal);
+    if (!row.note.empty() && row.ranks.rank() == 0)
+      std::cerr << "note: " << row.note << '\n';
+    if (!control.earlier.records.empty() && is_talking)
+      std::cerr << "continuing: " << control.earlier.records.size() << " records are in '"
+                << journal_file.string() << "' already\n";
+    const auto write_all_fields = [&](const study::Records &records)
+    { write_fields(records, scene, options.n_levels, folder / analysis.name); };
+    control.on_made = [&](const study::StudyResults &made)
+    {
+      on_first_rank(row.ranks,
+                    [&]
+                    {
+                      journal.append(made);
+                      std::error_code code;
+                      if (row.has_checkpoint)
+                        fs::remove(checkpoints.file(), code);
+                      write_all_fields(made.records);
+                    });
+    };
+    progress.emplace(is_talking);
     control.on_progress = [&](const std::string &what, double fraction)
     { progress->show(what, fraction); };
-    control.on_records = [&](const study::Records &records)
-    {
-      journal.append(records);
-      std::error_code code;
-      fs::remove(checkpoints.file(), code);
-      write_fields(records, scene, options.n_levels, folder / analysis.name);
-    };
-    write_fields(journal.earlier(), scene, options.n_levels, folder / analysis.name);
-    study::StudyResults results = run_study(analysis, scene, methods, control);
+    on_first_rank(row.ranks, [&] { write_all_fields(control.earlier.records); });
+    const study::StudyResults results = run_study(analysis, scene, methods, control);
     progress.reset();
-    results.provenance = provenance();
-    for (const std::string &warning : results.warnings)
-      std::cerr << "warning: " << warning << '\n';
-
-    const report::View view = row.view(results);
-    report::write_study(view, results, folder);
-    if (!results.is_complete)
-      return say_interrupted(folder);
-    journal.remove();
-    if (options.json)
-      std::cout << io::to_json(results);
-    else if (!options.quiet)
-      std::cout << report::study_summary(view, results,
-                                         (folder / (analysis.name + ".html")).string());
-    return exit_code(row, options, results);
+    on_first_rank(row.ranks,
+                  [&]
+                  {
+                    write_pages(row, results, folder);
+                    if (results.is_complete)
+                      journal.remove();
+                  });
+    if (row.ranks.rank() == 0)
+      tell_end(row, options, results, folder);
+    return exit_code(row, options.check, results);
   }
 } // namespace plumbline::app

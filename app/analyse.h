@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/communicator.h"
 #include "measures.h"
 #include "report/view.h"
 #include "study/crack_analysis.h"
@@ -7,6 +8,8 @@
 #include "study/growth_analysis.h"
 #include "study/stability.h"
 #include "study/stationary_crack.h"
+
+#include <map>
 
 namespace plumbline::app
 {
@@ -22,6 +25,16 @@ namespace plumbline::app
     study::Analysis analysis;
     report::View (*view)(const study::StudyResults &) = report::default_view;
     std::string command = analysis.name; ///< whose files they are
+    /// Pages and files of results, and what is printed of them; empty: as the view.
+    std::function<void(const study::StudyResults &, const std::filesystem::path &folder)>
+        write = {},
+        print = {};
+    std::string file = analysis.name; ///< the stem of its journal and numbers
+    bool goes_on = true;              ///< from what an interrupted command has left
+    bool has_checkpoint = false;      ///< see study::Checkpoints
+    base::Communicator ranks = base::Communicator::alone(); ///< that share the work
+    std::map<std::string, std::string> provenance = {};     ///< besides versions and machine
+    std::string note = {};                                  ///< for people, before it begins
   };
 
   /// An analysis that keeps its checkpoints, and other files of its own, where it is told.
@@ -36,9 +49,9 @@ namespace plumbline::app
   /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
   /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
   /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
-  /// and checkpoint.h5.
+  /// and checkpoint.h5. On several ranks the first one of the row talks and writes.
   /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
-  ///         where that is no finding; 130 if it was interrupted
+  ///         where that is no finding, nor expected by the scene; 130 if it was interrupted
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   int analyse(const MakeRow &make_row, const AnalyseOptions &options);

@@ -20,15 +20,6 @@ namespace plumbline::app
 
   namespace
   {
-    std::string name_of(const analysis::Record &run)
-    {
-      std::string name = run.key.problem + "_" + run.key.series + "_" + run.key.method;
-      std::replace_if(
-          name.begin(), name.end(),
-          [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
-      return name;
-    }
-
     /// "u", or "u1" and "u2".
     std::string column(const std::string &name, unsigned int component, unsigned int n_components)
     {
@@ -59,6 +50,15 @@ namespace plumbline::app
       out << '\n';
     }
   } // namespace
+
+  std::string file_stem(const analysis::Record &run)
+  {
+    std::string name = run.key.problem + "_" + run.key.series + "_" + run.key.method;
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; },
+        '_');
+    return name;
+  }
 
   PointValues::PointValues(const scene::Scene &scene)
   {
@@ -144,7 +144,7 @@ namespace plumbline::app
                           const fs::path &folder)
   {
     const unsigned int n = found.n_components;
-    const std::string name = name_of(run);
+    const std::string name = file_stem(run);
     std::vector<double> &before = before_[name];
     fs::create_directories(folder);
     const fs::path file = folder / (name + "_level" + std::to_string(run.key.level + 1) + ".csv");

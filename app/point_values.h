@@ -14,6 +14,9 @@
 
 namespace plumbline::app
 {
+  /// Of files about a case, series and method.
+  std::string file_stem(const analysis::Record &run);
+
   /// Values of solutions at the points of Output/points, one CSV file for each solve.
   class PointValues
   {

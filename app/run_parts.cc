@@ -86,6 +86,16 @@ namespace plumbline::app
     return 130;
   }
 
+  void on_first_rank(const base::Communicator &ranks, const std::function<void()> &action)
+  {
+    ranks.together(
+        [&]
+        {
+          if (ranks.rank() == 0)
+            action();
+        });
+  }
+
   std::map<std::string, std::string> provenance()
   {
     return {{"plumbline", PLUMBLINE_VERSION},

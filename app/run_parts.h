@@ -1,10 +1,12 @@
 #pragma once
 
+#include "base/communicator.h"
 #include "scene/scene.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -29,6 +31,9 @@ namespace plumbline::app
   /// it is run again.
   /// @return  its exit code
   int say_interrupted(const std::filesystem::path &folder);
+
+  /// Do something on the first of these ranks. If it fails, all of them stop. @note Collective.
+  void on_first_rank(const base::Communicator &ranks, const std::function<void()> &action);
 
   /// Versions and machine, for results.
   std::map<std::string, std::string> provenance();

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "study/expectations.h"
+#include "study/statement_lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,12 +117,14 @@ namespace plumbline::study
         if (analysis.has_decisive_error)
           results_.decisive_error = scene.study.decisive_error.text();
         results_.provenance = control.earlier.provenance;
+        results_.is_complete = false;
+        head_ = results_;
         if (!control.earlier.records.empty())
         {
           results_.savings = control.earlier.savings;
           results_.warnings = control.earlier.warnings;
         }
-        results_.is_complete = false;
+        note_told();
         common_.methods = methods;
         common_.make_part = [this](const Record &begun, const Common::Fill &fill)
         { make_part(begun, fill); };
@@ -164,6 +167,8 @@ namespace plumbline::study
       void run_level(const Place &place)
       {
         bool is_begun = false;
+        const auto is_here = [&](const ErrorEstimate &one)
+        { return one.series == place.series().name && one.level == place.number(); };
         for (std::size_t i = 0; i < methods_.size(); ++i, work_done_ += work_of(place.level()))
         {
           if (control_.should_stop && control_.should_stop())
@@ -178,19 +183,45 @@ namespace plumbline::study
           {
             show_progress(place.record(analysis_.name, method).key, "problem and reference");
             analysis_.begin(place);
+            if (std::any_of(control_.earlier.references.begin(), control_.earlier.references.end(),
+                            is_here))
+              note_told(); // of this level by the earlier study, which had begun it
           }
           if (is_due)
             own = analyse(place, method);
           std::move(own.begin(), own.end(), std::back_inserter(results_.records));
-          if (is_due && control_.on_result)
-            control_.on_result(results_);
           if (is_stopped_)
             return;
         }
         if (!is_begun)
-          take(results_.references, control_.earlier.references,
-               [&](const ErrorEstimate &one)
-               { return one.series == place.series().name && one.level == place.number(); });
+          take(results_.references, control_.earlier.references, is_here);
+        note_told();
+      }
+
+      /// All that the lists of statements have now is told.
+      void note_told()
+      {
+        n_told_.clear();
+        for_each_statement_list([this](auto list) { n_told_.push_back((results_.*list).size()); });
+      }
+
+      /// Of records, and of statements that were made since the last time.
+      void tell(const Records &records)
+      {
+        StudyResults made = head_;
+        made.records = records;
+        auto n = n_told_.begin();
+        bool is_more = !records.empty();
+        for_each_statement_list(
+            [&](auto list)
+            {
+              const auto &all = results_.*list;
+              (made.*list).assign(all.begin() + *n++, all.end());
+              is_more = is_more || !(made.*list).empty();
+            });
+        note_told();
+        if (is_more && control_.on_made)
+          control_.on_made(made);
       }
 
       /// Records of an earlier study; what came with them goes to the results.
@@ -212,6 +243,7 @@ namespace plumbline::study
                return place.is_finest() && one.method == method.name() &&
                       one.series == place.series().name;
              });
+        note_told();
         return own;
       }
 
@@ -227,6 +259,7 @@ namespace plumbline::study
             method.name() + ", " + place.series().name +
             ", h = " + base::to_text(place.level().h, 6) +
             (std::isfinite(seconds) ? ": some " + base::to_text(seconds, 6) + " CPU s" : ""));
+        tell({});
         return false;
       }
 
@@ -272,8 +305,7 @@ namespace plumbline::study
         show_progress(begun.key, begun.key.label());
         parts_.push_back(begun);
         fill_record(parts_.back(), fill);
-        if (control_.on_records)
-          control_.on_records({parts_.back()});
+        tell({parts_.back()});
       }
 
       Records analyse(const Place &place, const Method &method)
@@ -301,8 +333,7 @@ namespace plumbline::study
           known += record.cost.seconds();
         if (known == 0 && !records.empty()) // else the analysis has timed its parts
           records.front().cost.solve_seconds = timer.seconds();
-        if (control_.on_records && !records.empty())
-          control_.on_records(records);
+        tell(records);
         records.insert(records.begin(), std::make_move_iterator(parts_.begin()),
                        std::make_move_iterator(parts_.end()));
         return records;
@@ -315,6 +346,8 @@ namespace plumbline::study
       const base::SeparateCommunicator ranks_{control_.ranks};
       Common common_;
       StudyResults &results_ = common_.results;
+      StudyResults head_;                      ///< of what is told: without records and lists
+      std::vector<std::ptrdiff_t> n_told_;     ///< of the lists of statements
       Records parts_;                          ///< of the present method and place
       double work_done_ = 0, work_of_all_ = 0; ///< see work_of
       bool is_stopped_ = false;

@@ -171,9 +171,9 @@ namespace plumbline::study
     double budget = 0;         ///< leave out what is expected to take longer [CPU s]; 0: nothing
     std::function<void(const std::string &what, double fraction)> on_progress = {};
     std::function<bool()> should_stop = {}; ///< asked before each method at each level, and part
-    std::function<void(const Records &)> on_records = {}; ///< that were made just now
-    /// After them, of all that is there; its lists have grown.
-    std::function<void(const StudyResults &)> on_result = {};
+    /// What was made just now: records, with the statements that came with them, see
+    /// for_each_statement_list.
+    std::function<void(const StudyResults &)> on_made = {};
     /// Records that need not be made again, with what was found besides them, and provenance.
     StudyResults earlier = {};
     base::Communicator ranks = base::Communicator::alone(); ///< that run this study together

@@ -236,12 +236,16 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   fs::remove(err);
   expect_found(read(folder / "results.json"), "\"is_complete\": false");
   EXPECT_TRUE(fs::exists(folder / "report.html"));
-  EXPECT_FALSE(fs::exists(folder / "results.jsonl"));
+  // what was concluded is not lost where the page is made again
+  const std::string interrupted = read(folder / "results.json");
+  EXPECT_EQ(run("report " + folder.string()).exit_code, 0);
+  EXPECT_EQ(read(folder / "results.json"), interrupted);
 
   const Outcome rest = run("run " + arguments);
   EXPECT_EQ(rest.exit_code, 0);
   expect_found(rest.err, "continuing: ");
   expect_found(read(folder / "results.json"), "\"is_complete\": true");
+  EXPECT_FALSE(fs::exists(folder / "results.jsonl"));
 }
 
 // while it waits for a file that is a pipe

@@ -165,10 +165,12 @@ namespace plumbline::report
                                {"bonds", "", {2. / 3, 1e300}},
                                {"work", "", {0, -1. / 7}},
                                {"dissipated", "", {0, 5e-324}}};
-    io::RecordJournal(file, "scene").append({record});
+    study::StudyResults made;
+    made.records = {record};
+    io::RecordJournal(file, "scene").append(made);
     const io::RecordJournal journal(file, "scene");
-    ASSERT_EQ(journal.earlier().size(), 1u);
-    const Record &back = journal.earlier()[0];
+    ASSERT_EQ(journal.earlier().records.size(), 1u);
+    const Record &back = journal.earlier().records[0];
     EXPECT_FALSE(back.has("critical step"));
     const study::LimitProof was = study::limit_of(record), is = study::limit_of(back);
     EXPECT_EQ(std::tie(is.answer, is.defect, is.mean_defect, is.spread, is.ball_defect,

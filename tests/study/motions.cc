@@ -426,7 +426,7 @@ TEST(Motions, that_are_taken_over_stand_for_their_own_step)
     for (Record &motion : control.earlier.records)
       motion.cost.solve_seconds = 77; // known again
     std::size_t n_made = 0;
-    control.on_records = [&](const Records &records) { n_made += records.size(); };
+    control.on_made = [&](const StudyResults &made) { n_made += made.records.size(); };
     const StudyResults resumed = run_study(analysis, scene, methods, control);
     EXPECT_EQ(n_made, 4 - n_done);
     ASSERT_EQ(resumed.records.size(), 4u);
@@ -446,7 +446,7 @@ TEST(Motions, are_interrupted_between_steps)
       {{"Methods/names", "FA, IPA-AC"}, {"Study/h", "0.2, 0.1"}, {"Time/steps", "0.02, 0.01"}});
   unsigned int n_made = 0;
   RunControl control;
-  control.on_records = [&](const Records &records) { n_made += records.size(); };
+  control.on_made = [&](const StudyResults &made) { n_made += made.records.size(); };
   control.should_stop = [&] { return n_made == 3; };
   const StudyResults results =
       run_study(transient_analysis({}), scene, choose_methods(scene, meshfree::methods()), control);

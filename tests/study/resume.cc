@@ -5,6 +5,7 @@
 #include "reference/method.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
+#include "study/statement_lists.h"
 
 #include "tests/study/given_solutions.h"
 
@@ -84,6 +85,33 @@ TEST(SweepResume, keeps_the_estimates_of_finished_levels)
   EXPECT_EQ(resumed.references[0].estimate, 77);
   EXPECT_NE(resumed.references[1].estimate, 77);
   EXPECT_TRUE(resumed.estimates.empty());
+}
+
+TEST(SweepResume, tells_each_statement_once_however_often_it_is_interrupted)
+{
+  const scene::Scene scene = two_levels();
+  const StudyResults whole = sweep(scene);
+  StudyResults told;
+  const auto add = [&](const StudyResults &made)
+  {
+    const auto append = [&](auto list)
+    { (told.*list).insert((told.*list).end(), (made.*list).begin(), (made.*list).end()); };
+    append(&StudyResults::records);
+    for_each_statement_list(append);
+  };
+  for (std::size_t n = 1; n <= 4; ++n) // the second method of a level makes its reference again
+  {
+    SweepControl control;
+    control.on_made = add;
+    control.should_stop = [&] { return told.records.size() == n; };
+    run_sweep(scene, choose_methods(scene, all_methods()), all_methods(), control, told);
+    ASSERT_EQ(told.records.size(), n);
+    ASSERT_EQ(told.references.size(), (n + 1) / 2);
+  }
+  EXPECT_EQ(told.references[1].level, 1u);
+  EXPECT_EQ(told.maps.size(), whole.maps.size());
+  EXPECT_EQ(told.savings.size(), whole.savings.size());
+  EXPECT_EQ(told.warnings, whole.warnings);
 }
 
 namespace

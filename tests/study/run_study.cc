@@ -106,7 +106,7 @@ TEST(RunStudy, stops_between_methods_and_goes_on_from_records)
   EXPECT_EQ(first.records.size(), 5u);
   control.should_stop = {};
   control.earlier.records = first.records;
-  control.on_records = [&](const Records &records) { n_made += records.size(); };
+  control.on_made = [&](const StudyResults &made) { n_made += made.records.size(); };
   const StudyResults second = run(make_scene(), control);
   EXPECT_EQ(n_made, 7u);
   EXPECT_EQ(text_of(second), text_of(run(make_scene())));
