@@ -166,13 +166,18 @@ namespace plumbline::app
       return earlier;
     }
 
+    void tell_warnings(const study::StudyResults &results)
+    {
+      for (const std::string &warning : results.warnings)
+        std::cerr << "warning: " << warning << '\n';
+    }
+
     void write_pages(const AnalysisRow &row, const study::StudyResults &results,
                      const fs::path &folder)
     {
       if (row.write)
         return row.write(results, folder);
-      for (const std::string &warning : results.warnings)
-        std::cerr << "warning: " << warning << '\n';
+      tell_warnings(results);
       report::write_study(row.view(results), results, folder);
     }
 
@@ -182,8 +187,11 @@ namespace plumbline::app
     {
       if (options.json)
         std::cout << io::to_json(results);
-      else if (!options.quiet && row.print)
-        row.print(results, folder);
+      else if (!options.quiet && row.summary)
+      {
+        std::cout << row.summary(results, folder);
+        tell_warnings(results);
+      }
       else if (!options.quiet)
         std::cout << report::study_summary(row.view(results), results,
                                            (folder / (row.analysis.name + ".html")).string());

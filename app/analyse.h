@@ -26,9 +26,10 @@ namespace plumbline::app
     report::View (*view)(const study::StudyResults &) = report::default_view;
     std::string command = analysis.name; ///< whose files they are
     /// Pages and files of results, and what is printed of them; empty: as the view.
-    std::function<void(const study::StudyResults &, const std::filesystem::path &folder)>
-        write = {},
-        print = {};
+    std::function<void(const study::StudyResults &, const std::filesystem::path &folder)> write =
+        {};
+    std::function<std::string(const study::StudyResults &, const std::filesystem::path &folder)>
+        summary = {};
     std::string file = analysis.name; ///< the stem of its journal and numbers
     bool goes_on = true;              ///< from what an interrupted command has left
     bool has_checkpoint = false;      ///< see study::Checkpoints

@@ -5,9 +5,9 @@
 #include "base/number_text.h"
 #include "certified_set.h"
 #include "io/certificate_json.h"
+#include "io/point_values.h"
 #include "methods.h"
 #include "output_folder.h"
-#include "point_values.h"
 #include "report/text_table.h"
 #include "rules_table.h"
 #include "run_parts.h"
@@ -300,7 +300,7 @@ namespace plumbline::app
     const base::Communicator ranks = base::Communicator::all();
     const bool is_first = ranks.rank() == 0, is_quiet = options.quiet || !is_first;
     const scene::Scene scene = read_certifiable(options);
-    const PointValues points(scene);
+    const io::PointValues points(scene);
     const method::Methods methods = all_methods();
     const auto reference = reference_of(scene, methods);
     const method::Methods rules = rules_of(scene, methods);

@@ -2,11 +2,12 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
-#include "check_body.h"
-#include "check_files.h"
-#include "check_in_space.h"
-#include "check_series.h"
-#include "check_text.h"
+#include "base/text_file.h"
+#include "check/body.h"
+#include "check/files.h"
+#include "check/in_space.h"
+#include "check/series.h"
+#include "check/text.h"
 #include "methods.h"
 #include "output_folder.h"
 #include "run_parts.h"
@@ -14,6 +15,7 @@
 #include "study/method_names.h"
 
 #include <array>
+#include <functional>
 #include <iostream>
 
 namespace plumbline::app
@@ -43,21 +45,96 @@ namespace plumbline::app
     /// Free surfaces and cracks are known in the plane, at one level.
     void check_body_options(const CheckOptions &options, bool is_in_space)
     {
-      const bool is_free = is_free_boundary(options.boundary, "--boundary");
+      const bool is_free = check::is_free_boundary(options.boundary, "--boundary");
       if (!is_free && options.cracks.empty())
         return;
       const std::string given = is_free ? "--boundary free" : "--crack";
       if (is_in_space)
         throw InputError(given + " is for two dimensions; leave it out where Domain/dimension = 3");
-      if (is_series(options))
+      if (check::is_series(options))
         throw InputError(given + " is for the files of one level; give names without {h}");
+    }
+    /// Print what is wanted on standard output, and write files where they are.
+    void show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
+              const std::function<std::string()> &json, const std::function<std::string()> &text,
+              const std::function<void()> &write)
+    {
+      const bool is_silent = options.quiet || options.json;
+      if (options.json)
+        std::cout << json();
+      else if (!options.quiet)
+        std::cout << text();
+      const bool has_files = !scene.domain.is_in_space() && !is_silent;
+      if (!has_files && options.output.empty())
+        return;
+      const OutputFolder output(folder, {"check", scene.name, scene.text},
+                                base::Communicator::alone());
+      write();
+    }
+
+    int show_series(const scene::Scene &scene, const CheckOptions &options,
+                    const check::Requirements &required, const fs::path &folder)
+    {
+      const bool is_first = base::Communicator::all().rank() == 0;
+      const check::LevelFiles files = check::find_level_files(scene, options);
+      if (!files.missing.empty() && is_first)
+        std::cerr << "warning: levels without files are left out: there is no " << files.missing
+                  << '\n';
+      check::Series found;
+      {
+        ProgressLine progress(!options.quiet && is_first);
+        found = check::find_series(files, reference::methods(),
+                                   [&](const std::string &what, double fraction)
+                                   { progress.show(what, fraction); });
+      }
+      found.results.provenance = provenance();
+      if (is_first)
+        show(
+            scene, options, folder, [&] { return check::to_json(found, files, required); },
+            [&] { return check::text(found, required, (folder / "report.html").string()); },
+            [&] { check::write_series(found, files, required, folder); });
+      return check::complaints(found, required).empty() ? 0 : 1;
+    }
+
+    int show_in_space(const scene::Scene &scene, const CheckOptions &options,
+                      const check::Requirements &required)
+    {
+      const check::InSpace found = check::find_in_space(scene, options, required);
+      const std::string json = check::to_json(found, scene);
+      if (base::Communicator::all().rank() == 0)
+        show(
+            scene, options, options.output, [&] { return json; },
+            [&] { return check::text(found); },
+            [&] { base::write_file(fs::path(options.output) / "check.json", json); });
+      return found.complaints.empty() ? 0 : 1;
+    }
+
+    int show_level(const scene::Scene &scene, const CheckOptions &options,
+                   const check::Requirements &required, const fs::path &folder)
+    {
+      const check::Findings found = check::find(scene, options, reference::methods());
+      const bool is_wrong = !check::complaints(found, required).empty();
+      if (!is_wrong)
+        for (const check::CaseCheck &one : found.cases)
+          if (!one.weights.failure.empty())
+            throw NumericalError("no solution of " + one.name() + ": " + one.weights.failure);
+      const int exit_code = is_wrong ? 1 : 0;
+      if (base::Communicator::all().rank() == 0)
+        show(
+            scene, options, folder,
+            [&] { return check::check_json(found, required, options, exit_code); },
+            [&] {
+              return check::check_text(found, required, options, (folder / "report.html").string());
+            },
+            [&] { check::write_check(found, required, options, exit_code, folder); });
+      return exit_code;
     }
   } // namespace
 
   int check(const CheckOptions &options)
   {
     end_at_interrupts();
-    const Requirements required = parse_requirements(options.required);
+    const check::Requirements required = check::parse_requirements(options.required);
     refuse_other_bodies(options);
     const scene::Scene scene = study::with_names_of(
         scene::read_scene(options.scene_file, options.overrides), all_methods());
@@ -66,35 +143,16 @@ namespace plumbline::app
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
     check_body_options(options, scene.domain.is_in_space());
-    const bool has_series = is_series(options);
+    const bool has_series = check::is_series(options);
     if (has_series && scene.domain.is_in_space())
       throw InputError("series of files are checked in the plane alone; give the files of one "
                        "level");
-    if (has_series)
-      return check_series(scene, options, required);
-    if (scene.domain.is_in_space())
-      return check_in_space(scene, options, required);
-    const Findings found = find(scene, options);
-    const bool is_wrong = !complaints(found, required).empty();
-    if (!is_wrong)
-      for (const CaseCheck &one : found.cases)
-        if (!one.weights.failure.empty())
-          throw NumericalError("no solution of " + one.name() + ": " + one.weights.failure);
-    const int exit_code = is_wrong ? 1 : 0;
-    if (base::Communicator::all().rank() != 0)
-      return exit_code;
-    const bool is_silent = options.quiet || options.json;
     const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
                                                    : fs::path(options.output);
-    if (options.json)
-      std::cout << check_json(found, required, options, exit_code);
-    else if (!options.quiet)
-      std::cout << check_text(found, required, options, (folder / "report.html").string());
-    if (is_silent && options.output.empty())
-      return exit_code;
-    const OutputFolder output(folder, {"check", scene.name, scene.text},
-                              base::Communicator::alone());
-    write_check(found, required, options, exit_code, folder);
-    return exit_code;
+    if (has_series)
+      return show_series(scene, options, required, folder);
+    if (scene.domain.is_in_space())
+      return show_in_space(scene, options, required);
+    return show_level(scene, options, required, folder);
   }
 } // namespace plumbline::app

@@ -6,13 +6,13 @@
 #include "base/error.h"
 #include "certify.h"
 #include "check.h"
+#include "check/requirements.h"
 #include "grade.h"
 #include "list.h"
 #include "moduli.h"
 #include "new_scene.h"
 #include "parser_text.h"
 #include "probe.h"
-#include "requirements.h"
 #include "run.h"
 #include "sample.h"
 #include "unexpected.h"
@@ -155,7 +155,8 @@ namespace
                     "A crack that no bond may cross: 'x0, y0 : x1, y1', with more points for "
                     "bends; may be repeated")
         ->allow_extra_args(false);
-    check.add_option("--require", options->required, requirements_help)->allow_extra_args(false);
+    check.add_option("--require", options->required, plumbline::check::requirements_help)
+        ->allow_extra_args(false);
     check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
     check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
     check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");

@@ -11,12 +11,12 @@ namespace plumbline::app
   struct ProbeOptions
   {
     std::string nodes_file; ///< as of check; in space where it has a column z that is not constant
-    std::string command;    ///< see ForceProgram
+    std::string command;    ///< see check::ForceProgram
     double horizon = 0;     ///< no force reaches farther [length]
     std::optional<double> step; ///< of the displacements [length]; 1e-5 horizons unless given
     std::size_t n_nodes = 2;    ///< to displace, see meshfree::plan_probe
     bool all = false;           ///< displace all nodes
-    std::string forces_are = "forces"; ///< of base::words<ForceKind>
+    std::string forces_are = "forces"; ///< of base::words<check::ForceKind>
     std::string output = "bonds.csv";
     bool quiet = false;
     std::vector<scene::Override> overrides; ///< none

@@ -3,17 +3,17 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "dynamics.h"
+#include "io/point_values.h"
 #include "io/record_journal.h"
 #include "methods.h"
 #include "output_folder.h"
-#include "point_values.h"
 #include "report/report.h"
+#include "report/statics_summary.h"
 #include "scene/capabilities.h"
 #include "study/method_names.h"
 #include "study/preflight.h"
 #include "study/sampling.h"
 #include "study/statics.h"
-#include "summary.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -91,7 +91,7 @@ namespace plumbline::app
     /// @param points  outlive it
     study::StaticsOptions statics_options(const scene::Scene &scene, const fs::path &folder,
                                           const base::Communicator &communicator,
-                                          PointValues &points)
+                                          io::PointValues &points)
     {
       study::StaticsOptions options;
       options.ranks = communicator;
@@ -114,14 +114,15 @@ namespace plumbline::app
                         [&]
                         {
                           fs::create_directories(folder / "fields");
-                          write_field((folder / "fields" / file_stem(run)).string());
+                          write_field((folder / "fields" / io::file_stem(run)).string());
                         });
         };
       return options;
     }
 
     /// @param points  outlive it
-    AnalysisRow statics_row(const scene::Scene &scene, const fs::path &folder, PointValues &points)
+    AnalysisRow statics_row(const scene::Scene &scene, const fs::path &folder,
+                            io::PointValues &points)
     {
       // every rank runs the scene, and they share the work on meshes
       const base::Communicator communicator = base::Communicator::all();
@@ -130,7 +131,7 @@ namespace plumbline::app
       row.command = "run";
       row.file = "results";
       row.write = report::write_report;
-      row.print = print_summary;
+      row.summary = report::statics_summary;
       row.ranks = communicator;
       // comparisons with the method's own finest level need all solutions
       row.goes_on = scene.study.decisive_error.target != scene::Target::finest;
@@ -158,7 +159,7 @@ namespace plumbline::app
       check_analysis(scene, scene::Analysis::transient);
       return run_transient(options, scene);
     }
-    PointValues points(scene);
+    io::PointValues points(scene);
     return analyse([&](const study::Checkpoints &checkpoints)
                    { return statics_row(scene, checkpoints.folder, points); },
                    options, scene);

@@ -1,6 +1,6 @@
-#include "app/check_body.h"
 #include "arrays.h"
 #include "bindings.h"
+#include "check/body.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/check/bond_values.h"
 #include "meshfree/check/row_families.h"
@@ -76,10 +76,10 @@ namespace plumbline::python
       return width / std::max(1., std::round(width / std::sqrt(*middle)));
     }
 
-    app::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
-                       const physics::Kernel<2> &kernel, const geometry::Domain &domain, double h,
-                       bool boundary_is_data, const std::vector<std::string> &meant,
-                       meshfree::BondValues values, app::GivenBody body)
+    check::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
+                         const physics::Kernel<2> &kernel, const geometry::Domain &domain, double h,
+                         bool boundary_is_data, const std::vector<std::string> &meant,
+                         meshfree::BondValues values, check::GivenBody body)
     {
       const bool is_free = body.has_free_boundary;
       const geometry::Mesh mesh =
@@ -88,7 +88,7 @@ namespace plumbline::python
         body.parts = geometry::convex_parts(domain);
       meshfree::check_places(nodes, mesh, "h = " + std::to_string(h));
       meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, boundary_is_data && !is_free);
-      app::Findings found;
+      check::Findings found;
       found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};
       found.n_on_boundary = boundary_is_data || is_free ? 0 : cells.n_on_boundary;
       meshfree::GivenWeights weights;
@@ -100,8 +100,8 @@ namespace plumbline::python
       weights.nodes = std::move(nodes);
       meshfree::to_weights(values, kernel, weights);
       if (body.is_there())
-        found.body = app::check_body(body, "cracks", kernel, found.level.node_size, weights,
-                                     cells.uncut_areas);
+        found.body = check::check_body(body, "cracks", kernel, found.level.node_size, weights,
+                                       cells.uncut_areas);
       for (const std::size_t k : weights.cells->source)
         found.ids.push_back(weights.nodes.id[k]);
       problem::MeshDomain on;
@@ -130,12 +130,12 @@ namespace plumbline::python
       return result;
     }
 
-    py::dict to_dict(const meshfree::Worst &worst, const app::Findings &found)
+    py::dict to_dict(const meshfree::Worst &worst, const check::Findings &found)
     {
       return py::dict("value"_a = worst.value, "node"_a = found.ids[worst.node]);
     }
 
-    py::list outliers(const app::Findings &found)
+    py::list outliers(const check::Findings &found)
     {
       py::list result;
       for (const Outlier &o : found.outliers)
@@ -148,12 +148,12 @@ namespace plumbline::python
                                "index"_a = has_row ? py::cast(found.given.lines[o.node][o.bond])
                                                    : py::object(py::none()),
                                "found"_a = o.found, "expected"_a = o.expected,
-                               "text"_a = in_arrays(app::text(o, found))));
+                               "text"_a = in_arrays(check::text(o, found))));
       }
       return result;
     }
 
-    py::list causes(const app::Findings &found)
+    py::list causes(const check::Findings &found)
     {
       py::list result;
       for (const meshfree::Cause &cause : found.causes)
@@ -163,7 +163,7 @@ namespace plumbline::python
       return result;
     }
 
-    py::dict moments(const app::Findings &found)
+    py::dict moments(const check::Findings &found)
     {
       py::list degrees;
       for (const meshfree::MomentDefect &defect : found.moments.defects)
@@ -178,11 +178,11 @@ namespace plumbline::python
                       "second"_a = to_dict(found.moments.second, found));
     }
 
-    py::dict to_dict(const app::Findings &found, const app::Requirements &required)
+    py::dict to_dict(const check::Findings &found, const check::Requirements &required)
     {
-      const std::vector<std::string> wrong = app::complaints(found, required);
+      const std::vector<std::string> wrong = check::complaints(found, required);
       py::dict result("passed"_a = wrong.empty(), "complaints"_a = in_arrays(wrong),
-                      "verdicts"_a = in_arrays(app::verdicts(found)), "rule"_a = found.rule,
+                      "verdicts"_a = in_arrays(check::verdicts(found)), "rule"_a = found.rule,
                       "rule_factor"_a = found.rule_factor, "rule_remark"_a = found.rule_remark);
       result["causes"] = causes(found);
       result["outliers"] = outliers(found);
@@ -207,7 +207,7 @@ namespace plumbline::python
       result["n_ignored_bonds"] = found.given.n_ignored;
       result["body"] = py::none();
       if (found.body)
-        result["body"] = py::module_::import("json").attr("loads")(app::body_json(found));
+        result["body"] = py::module_::import("json").attr("loads")(check::body_json(found));
       return result;
     }
 
@@ -218,11 +218,11 @@ namespace plumbline::python
                    const std::vector<std::string> &require, const std::string &bonds_are,
                    const std::string &boundary, const std::vector<Doubles> &cracks)
     {
-      app::GivenBody body;
-      body.has_free_boundary = app::is_free_boundary(boundary, "boundary");
+      check::GivenBody body;
+      body.has_free_boundary = check::is_free_boundary(boundary, "boundary");
       for (std::size_t c = 0; c < cracks.size(); ++c)
         body.cracks.push_back(to_points(cracks[c], "cracks[" + std::to_string(c) + "]"));
-      const app::Requirements required = app::parse_requirements(require);
+      const check::Requirements required = check::parse_requirements(require);
       const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
       std::vector<Point<2>> places = to_points(nodes, "nodes");
       require_length(volumes, places.size(), "volumes", "node");
@@ -240,7 +240,7 @@ namespace plumbline::python
       if (domain.include.empty())
         throw InputError("boxes is empty; give the domain whose nodes are free, e.g. ((0, 0), (1, "
                          "1))");
-      app::Findings found;
+      check::Findings found;
       {
         const py::gil_scoped_release others;
         meshfree::GivenNodes given = to_nodes(std::move(places), volumes.data());

@@ -2,7 +2,7 @@
 
 #include "check_command.h"
 
-#include "app/check_text.h"
+#include "check/text.h"
 #include "meshfree/rules/families.h"
 #include "meshfree/rules/rules.h"
 #include "report/text_table.h"
@@ -56,7 +56,9 @@ TEST(Check, ends_a_short_summary_with_the_answer)
   EXPECT_EQ(lines.back(), "NOT as required");
   expect_found(outcome.out, " more lines in the report\n");
   const std::vector<std::string> many(20, "outlier: " + std::string(200, 'x'));
-  EXPECT_EQ(plumbline::report::lines_of(check_summary(outcome.out, many, "no")).size(), 25u);
+  EXPECT_EQ(
+      plumbline::report::lines_of(plumbline::check::check_summary(outcome.out, many, "no")).size(),
+      25u);
 }
 
 TEST(Check, says_that_it_assumes_a_horizon)

@@ -2,7 +2,7 @@
 
 #include "command.h"
 #include "app/run_parts.h"
-#include "app/summary.h"
+#include "report/statics_summary.h"
 
 #include <nlohmann/json.hpp>
 
@@ -400,14 +400,10 @@ TEST(Command, a_summary_without_advice_ends_in_the_estimated_error)
   fine.field_estimate = 3e-4;
   fine.certified_digits = 4;
   results.references = {coarse, fine};
-  std::ostringstream said;
-  auto *const terminal = std::cout.rdbuf(said.rdbuf());
-  print_summary(results, "out");
-  std::cout.rdbuf(terminal);
-  expect_found(said.str(),
-               "Estimated error of Q2, u, m = 3, h = 0.05: 2e-05 (averages, L2), 0.0003 "
-               "(field, L2); 4 certified digits\n");
-  EXPECT_EQ(said.str().find("0.001 (averages"), std::string::npos);
+  const std::string said = plumbline::report::statics_summary(results, "out");
+  expect_found(said, "Estimated error of Q2, u, m = 3, h = 0.05: 2e-05 (averages, L2), 0.0003 "
+                     "(field, L2); 4 certified digits\n");
+  EXPECT_EQ(said.find("0.001 (averages"), std::string::npos);
 }
 
 TEST(Command, a_summary_puts_methods_into_the_worst_of_their_classes)
@@ -426,12 +422,9 @@ TEST(Command, a_summary_puts_methods_into_the_worst_of_their_classes)
     trend.outcome = outcome;
     results.trends.push_back(trend);
   }
-  std::ostringstream said;
-  std::streambuf *const before = std::cout.rdbuf(said.rdbuf());
-  print_summary(results, "out");
-  std::cout.rdbuf(before);
-  expect_found(said.str(), "Stall, however fine the mesh: FA (in 1 of 3 cases)\n");
-  EXPECT_EQ(said.str().find("Converge:"), std::string::npos);
+  const std::string said = plumbline::report::statics_summary(results, "out");
+  expect_found(said, "Stall, however fine the mesh: FA (in 1 of 3 cases)\n");
+  EXPECT_EQ(said.find("Converge:"), std::string::npos);
 }
 
 TEST(Command, json_on_standard_output_is_the_results_file)

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "requirements.h"
+#include "check/requirements.h"
 
 #include <filesystem>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   /// report.html with maps, nodes.csv (each node's defects), outliers.csv, cells.vtu (the same on
   /// the cells) and check.json.
   /// @throws InputError  the folder cannot be written
   /// @throws NumericalError  maps cannot be drawn; all else is written
-  void write_check(const Findings &found, const Requirements &required, const CheckOptions &options,
+  void write_check(const Findings &found, const Requirements &required, const Input &input,
                    int exit_code, const std::filesystem::path &folder);
-} // namespace plumbline::app
+} // namespace plumbline::check

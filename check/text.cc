@@ -1,7 +1,7 @@
-#include "check_text.h"
+#include "check/text.h"
 
 #include "base/number_text.h"
-#include "check_body.h"
+#include "check/body.h"
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/solution_record.h"
@@ -12,7 +12,7 @@
 #include <iostream>
 #include <sstream>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using namespace meshfree;
   using Json = nlohmann::ordered_json;
@@ -34,13 +34,13 @@ namespace plumbline::app
             << "moments below are those of the interior; solutions are not compared\n";
     }
 
-    void tell_nodes(std::ostream &out, const Findings &found, const CheckOptions &options)
+    void tell_nodes(std::ostream &out, const Findings &found, const Input &input)
     {
       const std::size_t n_free = n_of_domain(found);
-      out << "nodes     " << options.nodes_file << ": " << n_free << " free, "
+      out << "nodes     " << input.nodes_file << ": " << n_free << " free, "
           << found.ids.size() - n_free << " in the collar; volumes are off the cells' areas by "
           << base::to_percent(found.volume_defect) << '\n'
-          << "bonds     " << options.bonds_file << ": "
+          << "bonds     " << input.bonds_file << ": "
           << (found.body ? found.body->n_bonds : found.weights.n_bonds) << ", at most "
           << found.weights.largest_family << " of a node";
       if (found.given.n_ignored > 0)
@@ -144,13 +144,13 @@ namespace plumbline::app
     return text;
   }
 
-  std::string check_text(const Findings &found, const Requirements &required,
-                         const CheckOptions &options, const std::string &page)
+  std::string check_text(const Findings &found, const Requirements &required, const Input &input,
+                         const std::string &page)
   {
     std::ostringstream out;
     out << std::setprecision(4) << "report    " << page << '\n';
     tell_body(out, found);
-    tell_nodes(out, found, options);
+    tell_nodes(out, found, input);
     tell_moments(out, found);
     tell_elastic(out, found);
     for (const CaseCheck &one : found.cases)
@@ -254,13 +254,13 @@ namespace plumbline::app
     }
   } // namespace
 
-  std::string check_json(const Findings &found, const Requirements &required,
-                         const CheckOptions &options, int exit_code)
+  std::string check_json(const Findings &found, const Requirements &required, const Input &input,
+                         int exit_code)
   {
     Json json = {{"schema", check_schema},
-                 {"nodes", options.nodes_file},
-                 {"bonds", options.bonds_file},
-                 {"scene", options.scene_file}};
+                 {"nodes", input.nodes_file},
+                 {"bonds", input.bonds_file},
+                 {"scene", input.scene_file}};
     add_sizes(json, found);
     if (found.body)
       json["body"] = Json::parse(body_json(found));
@@ -273,4 +273,4 @@ namespace plumbline::app
     json["exit_code"] = exit_code;
     return json.dump(2) + '\n';
   }
-} // namespace plumbline::app
+} // namespace plumbline::check

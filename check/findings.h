@@ -1,21 +1,34 @@
 #pragma once
 
-#include "check.h"
 #include "meshfree/check/body_check.h"
+#include "meshfree/check/findings.h"
+#include "method/method.h"
 #include "scene/scene.h"
 #include "study/study_results.h"
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
-namespace plumbline::app
+namespace plumbline::check
 {
+  /// The weights of another code, and what they are meant for.
+  struct Input
+  {
+    std::string nodes_file, bonds_file, scene_file; ///< {h} in names: a series of levels
+    std::string bonds_are = "weights";              ///< or what else, see meshfree::BondValues
+    std::string boundary = "constrained";           ///< or free: that of the domain is a surface
+    std::vector<std::string> cracks;                ///< each "x0, y0 : x1, y1", like Domain/cracks
+    std::vector<scene::Override> overrides;         ///< of the scene
+  };
+
   /// A level of a scene, and what led to it.
   struct ChosenLevel
   {
     problem::Level level;
     std::string series;
-    double node_size; ///< spacing of the nodes in Ω: √ of the mean area of their cells [length]
+    double node_size = 0; ///< spacing of the nodes in Ω: √ of the mean area of their cells [length]
 
     std::string text() const;
   };
@@ -47,9 +60,13 @@ namespace plumbline::app
 
   /// Says that the horizon is the default one, where neither the scene file nor the command gives
   /// it; else empty.
-  std::string assumed_horizon(const scene::Scene &scene, const CheckOptions &options,
+  std::string assumed_horizon(const scene::Scene &scene, const Input &input,
                               const problem::Level &level);
 
+  /// @param references  Galerkin methods for the solutions that those by the weights are held
+  /// against
   /// @note Collective: the solutions are shared among the ranks.
-  Findings find(scene::Scene scene, const CheckOptions &options);
-} // namespace plumbline::app
+  /// @throws InputError      files or a scene that cannot be used
+  /// @throws NumericalError  no solution by the reference
+  Findings find(scene::Scene scene, const Input &input, const method::Methods &references);
+} // namespace plumbline::check

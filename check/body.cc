@@ -1,4 +1,4 @@
-#include "check_body.h"
+#include "check/body.h"
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using geometry::FamilyCut;
   using meshfree::BodyCheck;
@@ -361,4 +361,4 @@ namespace plumbline::app
     json["n_at_ends"] = body.n_at_ends;
     return json.dump();
   }
-} // namespace plumbline::app
+} // namespace plumbline::check

@@ -1,4 +1,4 @@
-#include "summary.h"
+#include "report/statics_summary.h"
 
 #include "base/number_text.h"
 #include "report/text_table.h"
@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <map>
+#include <sstream>
 #include <tuple>
 
-namespace plumbline::app
+namespace plumbline::report
 {
   namespace
   {
@@ -23,9 +23,9 @@ namespace plumbline::app
 
     constexpr std::size_t n_columns = 120;
 
-    void print(const std::string &line)
+    void print(std::ostream &out, const std::string &line)
     {
-      std::cout << report::fitted(line, n_columns) << '\n';
+      out << fitted(line, n_columns) << '\n';
     }
 
     /// Why there is this verdict: in short where a proof stands beside the errors.
@@ -44,7 +44,7 @@ namespace plumbline::app
     }
 
     /// A row for each method, problem and series.
-    void print_trends(const StudyResults &results)
+    void print_trends(std::ostream &out, const StudyResults &results)
     {
       constexpr std::size_t most = 9;
       std::array<std::size_t, 4> width{};
@@ -62,29 +62,29 @@ namespace plumbline::app
         std::string line = "  ";
         for (unsigned int c = 0; c < width.size(); ++c)
           line += rows[row][c] + std::string(width[c] - rows[row][c].size(), ' ');
-        print(line + rows[row][4]);
+        print(out, line + rows[row][4]);
       }
       if (rows.size() > n)
-        print("  ... and " + std::to_string(rows.size() - n) + " more in the report");
+        print(out, "  ... and " + std::to_string(rows.size() - n) + " more in the report");
     }
 
-    void print_expectations(const StudyResults &results)
+    void print_expectations(std::ostream &out, const StudyResults &results)
     {
       constexpr std::size_t most = 2;
       std::size_t n_missed = 0;
       for (const study::Expectation &one : results.expectations)
         if (!one.holds && n_missed++ < most)
-          print("not as expected: " + one.subject + ": expected " + one.expected + ", found " +
-                one.found);
+          print(out, "not as expected: " + one.subject + ": expected " + one.expected + ", found " +
+                         one.found);
       if (n_missed > most)
-        print("not as expected: " + std::to_string(n_missed - most) + " more in the report");
+        print(out, "not as expected: " + std::to_string(n_missed - most) + " more in the report");
       if (!results.expectations.empty())
-        print("expectations: " + std::to_string(results.expectations.size() - n_missed) + " of " +
-              std::to_string(results.expectations.size()) + " hold");
+        print(out, "expectations: " + std::to_string(results.expectations.size() - n_missed) +
+                       " of " + std::to_string(results.expectations.size()) + " hold");
     }
 
     /// Methods by what became of them, each in the worst class that it belongs to.
-    void print_answer(const StudyResults &results)
+    void print_answer(std::ostream &out, const StudyResults &results)
     {
       // from good to bad
       const std::vector<std::pair<Outcome, std::string>> classes = {
@@ -128,13 +128,13 @@ namespace plumbline::app
                                       : "");
         }
         if (!names.empty())
-          print(words + names);
+          print(out, words + names);
       }
     }
 
     /// Of solutions by the reference, or else by Galerkin methods, at the finest levels of the
     /// first problems and series.
-    void print_estimates(const StudyResults &results)
+    void print_estimates(std::ostream &out, const StudyResults &results)
     {
       constexpr std::size_t most = 2;
       constexpr int n_digits = 3;
@@ -157,17 +157,17 @@ namespace plumbline::app
       std::size_t n = 0;
       for (const study::ErrorEstimate *one : finest)
         if (one->estimate > 0 && n++ < most)
-          print("Estimated error of " + one->method + ", " + one->problem + ", " + one->series +
-                ", h = " + base::to_text(one->h, n_digits) + ": " +
-                base::to_text(one->estimate, n_digits) + " (averages, L2)" +
-                (one->field_estimate > 0
-                     ? ", " + base::to_text(one->field_estimate, n_digits) + " (field, L2)"
-                     : "") +
-                "; " + std::to_string(one->certified_digits) + " certified digits");
+          print(out, "Estimated error of " + one->method + ", " + one->problem + ", " +
+                         one->series + ", h = " + base::to_text(one->h, n_digits) + ": " +
+                         base::to_text(one->estimate, n_digits) + " (averages, L2)" +
+                         (one->field_estimate > 0
+                              ? ", " + base::to_text(one->field_estimate, n_digits) + " (field, L2)"
+                              : "") +
+                         "; " + std::to_string(one->certified_digits) + " certified digits");
     }
 
     /// Of the first problems and series.
-    void print_cheapest(const StudyResults &results)
+    void print_cheapest(std::ostream &out, const StudyResults &results)
     {
       constexpr std::size_t most = 2, most_targets = 2;
       constexpr int n_digits = 3;
@@ -186,34 +186,34 @@ namespace plumbline::app
                     " at h = " + base::to_text(choice.h, n_digits) + ", " +
                     base::to_text(choice.seconds, n_digits) + " CPU s";
           }
-          print(line);
+          print(out, line);
         }
     }
   } // namespace
 
-  void print_summary(const StudyResults &results, const std::filesystem::path &folder)
+  std::string statics_summary(const StudyResults &results, const std::filesystem::path &folder)
   {
-    print(report::heading(results.scene_name, results.purpose));
+    std::ostringstream out;
+    print(out, heading(results.scene_name, results.purpose));
     bool has_constants = false;
     for (const auto &[what, value] : results.facts)
       if (!study::is_of_equation(what)) // that is on the page
       {
-        print(what + ": " + value);
+        print(out, what + ": " + value);
         has_constants = true;
       }
     if (!has_constants)
-      std::cout << '\n';
-    print(results.decisive_error + " (compared with " + study::target_words(results) + ")");
-    print_trends(results);
-    for (const std::string &warning : results.warnings)
-      std::cerr << "warning: " << warning << '\n';
-    std::cout << '\n';
-    print_expectations(results);
-    std::cout << "report: " << (folder / "report.html").string() << "\n\n";
-    print_answer(results);
-    print_cheapest(results);
+      out << '\n';
+    print(out, results.decisive_error + " (compared with " + study::target_words(results) + ")");
+    print_trends(out, results);
+    out << '\n';
+    print_expectations(out, results);
+    out << "report: " << (folder / "report.html").string() << "\n\n";
+    print_answer(out, results);
+    print_cheapest(out, results);
     if (std::all_of(results.advice.begin(), results.advice.end(),
                     [](const study::Advice &advice) { return advice.choices.empty(); }))
-      print_estimates(results);
+      print_estimates(out, results);
+    return out.str();
   }
-} // namespace plumbline::app
+} // namespace plumbline::report

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "requirements.h"
+#include "check/requirements.h"
 
-namespace plumbline::app
+namespace plumbline::check
 {
   /// A summary of 25 lines of 120 columns at most.
   /// @param body       lines
@@ -15,13 +15,13 @@ namespace plumbline::app
 
   /// What is found, for people; the answer last.
   /// @param page  of the report
-  std::string check_text(const Findings &found, const Requirements &required,
-                         const CheckOptions &options, const std::string &page);
+  std::string check_text(const Findings &found, const Requirements &required, const Input &input,
+                         const std::string &page);
 
   /// The number under "schema" of check.json in two dimensions; as io::schema.
   constexpr unsigned int check_schema = 1;
 
   /// The same for programs, as lib/report/check.schema.json describes it.
-  std::string check_json(const Findings &found, const Requirements &required,
-                         const CheckOptions &options, int exit_code);
-} // namespace plumbline::app
+  std::string check_json(const Findings &found, const Requirements &required, const Input &input,
+                         int exit_code);
+} // namespace plumbline::check

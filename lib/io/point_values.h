@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace plumbline::app
+namespace plumbline::io
 {
   /// Of files about a case, series and method.
   std::string file_stem(const analysis::Record &run);
@@ -51,4 +51,4 @@ namespace plumbline::app
     /// By case, series and method: u at the level before, shape (n_points, n_components).
     std::map<std::string, std::vector<double>> before_;
   };
-} // namespace plumbline::app
+} // namespace plumbline::io

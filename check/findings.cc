@@ -1,13 +1,12 @@
-#include "check_findings.h"
+#include "check/findings.h"
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "check_body.h"
+#include "check/body.h"
 #include "geometry/local_coordinates.h"
 #include "meshfree/check/bond_values.h"
 #include "meshfree/discretisations.h"
 #include "problem/builder.h"
-#include "reference/method.h"
 #include "scene/keys.h"
 #include "scene/mesh.h"
 #include "scene/scene_keys.h"
@@ -22,7 +21,7 @@
 #include <filesystem>
 #include <sstream>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using namespace meshfree;
 
@@ -52,15 +51,15 @@ namespace plumbline::app
 
     /// That of the scene, or Q1 or P1.
     std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
-                                                           const problem::Problem<2> &problem)
+                                                           const problem::Problem<2> &problem,
+                                                           const method::Methods &references)
     {
       const auto &wanted = scene.reference.method;
       const std::string name = wanted ? *wanted : problem.mesh()->is_triangles() ? "P1" : "Q1";
-      for (const auto &method : reference::methods())
+      for (const auto &method : references)
         if (method->name() == name)
         {
-          if (const std::string reason =
-                  study::refusal(*method, scene, problem, reference::methods());
+          if (const std::string reason = study::refusal(*method, scene, problem, references);
               !reason.empty())
             throw InputError("Reference/method: '" + name + "' cannot do this scene: " + reason);
           return method;
@@ -139,11 +138,12 @@ namespace plumbline::app
     }
 
     CaseCheck check_case(const scene::Scene &scene, const scene::Case &one, const std::string &name,
-                         const ChosenLevel &chosen, const FamilySource<2> &families)
+                         const ChosenLevel &chosen, const FamilySource<2> &families,
+                         const method::Methods &references)
     {
       const problem::Problem<2> &problem = one.problem;
       const WeightsOfAFile given(families);
-      const auto method = reference_method(scene, problem);
+      const auto method = reference_method(scene, problem, references);
       CaseCheck result{record_of(given, name, chosen), record_of(*method, name, chosen)};
       const analysis::Solution reference =
           reference_solution(problem, *method, name + ", " + chosen.text());
@@ -160,11 +160,11 @@ namespace plumbline::app
       return result;
     }
 
-    GivenBody body_of(const scene::Scene &scene, const CheckOptions &options)
+    GivenBody body_of(const scene::Scene &scene, const Input &input)
     {
       GivenBody body;
-      body.has_free_boundary = is_free_boundary(options.boundary, "--boundary");
-      for (const std::string &text : options.cracks)
+      body.has_free_boundary = is_free_boundary(input.boundary, "--boundary");
+      for (const std::string &text : input.cracks)
         try
         {
           auto cracks = scene::to_lines(text, scene::lines());
@@ -210,28 +210,28 @@ namespace plumbline::app
 
     /// How the files were read, and with which horizon.
     std::vector<std::string> all_notes(const Findings &found, const std::string &assumed,
-                                       const CheckOptions &options)
+                                       const Input &input)
     {
       std::vector<std::string> result;
       if (!assumed.empty())
         result.push_back(assumed);
-      for (const auto &[file, notes] : {std::pair{options.nodes_file, found.nodes.notes},
-                                        std::pair{options.bonds_file, found.given.notes}})
+      for (const auto &[file, notes] : {std::pair{input.nodes_file, found.nodes.notes},
+                                        std::pair{input.bonds_file, found.given.notes}})
         for (const std::string &note : notes)
           result.push_back("'" + file + "': " + note);
       return result;
     }
   } // namespace
 
-  std::string assumed_horizon(const scene::Scene &scene, const CheckOptions &options,
+  std::string assumed_horizon(const scene::Scene &scene, const Input &input,
                               const problem::Level &level)
   {
     const scene::Regime regime = scene.study.regime;
     const bool is_fixed = regime == scene::Regime::m || regime == scene::Regime::horizon;
     const std::string key = is_fixed ? "Study/horizon" : "Study/m";
     std::error_code error; // a pipe cannot be read again
-    if (!std::filesystem::is_regular_file(options.scene_file, error) ||
-        !scene::value_of_key(options.scene_file, options.overrides, key).empty())
+    if (!std::filesystem::is_regular_file(input.scene_file, error) ||
+        !scene::value_of_key(input.scene_file, input.overrides, key).empty())
       return "";
     return key + " is not given: " +
            (is_fixed ? "the horizon " + base::to_text(level.horizon, 6)
@@ -239,22 +239,22 @@ namespace plumbline::app
            " is assumed";
   }
 
-  Findings find(scene::Scene scene, const CheckOptions &options)
+  Findings find(scene::Scene scene, const Input &input, const method::Methods &references)
   {
     check_analysis(scene, scene::Analysis::check);
-    GivenBody body = body_of(scene, options);
+    GivenBody body = body_of(scene, input);
     scene.domain.is_free_body = body.has_free_boundary;
     Findings found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
     GivenWeights weights;
-    weights.nodes = read_given_nodes(options.nodes_file);
+    weights.nodes = read_given_nodes(input.nodes_file);
     weights.nodes.origin = scene.domain.origin;
     geometry::move_to(weights.nodes.origin, weights.nodes.places);
     const bool boundary_is_data = scene.methods.nodes.are_vertices() && !body.has_free_boundary;
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";
-    scene.methods.nodes = {std::filesystem::absolute(options.nodes_file).string()};
+    scene.methods.nodes = {std::filesystem::absolute(input.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
     found.level = choose_level(scene, weights.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
@@ -275,10 +275,10 @@ namespace plumbline::app
             ? problem_on(mesh, weights.cells, scene::make_kernel(scene, found.level.level.horizon),
                          found.level.level.h)
             : case_of(0).problem;
-    weights.given = read_given_families(options.bonds_file, weights.nodes, *weights.cells);
+    weights.given = read_given_families(input.bonds_file, weights.nodes, *weights.cells);
     for (const std::size_t i : weights.cells->source)
       weights.volumes.push_back(weights.nodes.volume[i]);
-    to_weights(to_bond_values(options.bonds_are, "--bonds-are"), problem.kernel, weights);
+    to_weights(to_bond_values(input.bonds_are, "--bonds-are"), problem.kernel, weights);
     if (body.is_there())
       found.body = check_body(body, "--crack", problem.kernel, found.level.node_size, weights,
                               cells.uncut_areas);
@@ -287,14 +287,15 @@ namespace plumbline::app
     problem.on_mesh()->cells = weights.cells; // the interior first
     static_cast<meshfree::Findings &>(found) = find_defects(
         std::move(weights), problem, cells.uncut_areas, found.level.node_size, scene.methods.names);
-    found.notes = all_notes(found, assumed_horizon(scene, options, found.level.level), options);
+    found.notes = all_notes(found, assumed_horizon(scene, input, found.level.level), input);
     if (body.is_there())
       return found; // without a constraint all around, or with cracks, solutions are other ones
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
-      found.cases.push_back(check_case(scene, case_of(c), names[c], found.level, source));
+      found.cases.push_back(
+          check_case(scene, case_of(c), names[c], found.level, source, references));
     return found;
   }
-} // namespace plumbline::app
+} // namespace plumbline::check

@@ -1,4 +1,4 @@
-#include "point_values.h"
+#include "io/point_values.h"
 
 #include "base/csv.h"
 #include "base/error.h"
@@ -13,7 +13,7 @@
 #include <fstream>
 #include <limits>
 
-namespace plumbline::app
+namespace plumbline::io
 {
   namespace fs = std::filesystem;
   using dealii::Point;
@@ -187,4 +187,4 @@ namespace plumbline::app
                        "'; free some space, or give another output folder (-o)");
     before = found.values;
   }
-} // namespace plumbline::app
+} // namespace plumbline::io

@@ -5,10 +5,11 @@
 #include "meshfree/check/probe.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   enum class ForceKind
   {
@@ -25,6 +26,7 @@ namespace plumbline::app
     std::vector<double> volumes;            ///< [length^dim]
   };
 
+  /// What should_stop() of a program asked for.
   struct Interrupted
   {
   };
@@ -39,13 +41,15 @@ namespace plumbline::app
   class ForceProgram
   {
   public:
-    /// @param nodes  must outlive the program
+    /// @param nodes        must outlive the program
+    /// @param should_stop  asked while it runs: it is terminated then
     /// @throws InputError  a command that lacks one of the two files
-    ForceProgram(const std::string &command, const ProgramNodes<dim> &nodes, ForceKind kind);
+    ForceProgram(const std::string &command, const ProgramNodes<dim> &nodes, ForceKind kind,
+                 std::function<bool()> should_stop);
 
     /// @return  forces on nodes, whatever kind the program gives
     /// @throws InputError   the command fails, or its forces are not those of all nodes
-    /// @throws Interrupted  by the user, see watch_interrupts
+    /// @throws Interrupted  it was terminated
     meshfree::NodeVectors<dim> run(const meshfree::NodeVectors<dim> &displacements) const;
 
   private:
@@ -55,14 +59,15 @@ namespace plumbline::app
 
     const ProgramNodes<dim> &nodes_;
     ForceKind kind_;
+    std::function<bool()> should_stop_;
     base::TemporaryFolder folder_;
     std::filesystem::path nodes_file_, forces_file_, log_file_;
     std::string command_;
   };
-} // namespace plumbline::app
+} // namespace plumbline::check
 
 namespace plumbline::base
 {
   template <>
-  inline constexpr auto words<app::ForceKind> = std::array{"forces", "densities"};
+  inline constexpr auto words<check::ForceKind> = std::array{"forces", "densities"};
 } // namespace plumbline::base

@@ -1,8 +1,8 @@
-#include "requirements.h"
+#include "check/requirements.h"
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "check_body.h"
+#include "check/body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using namespace meshfree;
 
@@ -384,4 +384,4 @@ namespace plumbline::app
     const std::vector<std::string> result = interior_verdicts(found);
     return found.body ? after_body(body_verdicts(found), result) : result;
   }
-} // namespace plumbline::app
+} // namespace plumbline::check

@@ -1,7 +1,7 @@
-#include "check_files.h"
+#include "check/files.h"
 
-#include "check_body.h"
-#include "check_text.h"
+#include "check/body.h"
+#include "check/text.h"
 #include "meshfree/check/cells_vtu.h"
 #include "report/check_page.h"
 #include "report/text_table.h"
@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using namespace meshfree;
   using report::Table;
@@ -128,11 +128,11 @@ namespace plumbline::app
     }
   } // namespace
 
-  void write_check(const Findings &found, const Requirements &required, const CheckOptions &options,
+  void write_check(const Findings &found, const Requirements &required, const Input &input,
                    int exit_code, const std::filesystem::path &folder)
   {
     const auto fields = node_fields(found);
-    report::write_file(folder / "check.json", check_json(found, required, options, exit_code));
+    report::write_file(folder / "check.json", check_json(found, required, input, exit_code));
     report::write_file(folder / "nodes.csv", report::to_csv(node_table(found, fields)));
     report::write_file(folder / "outliers.csv", report::to_csv(outlier_table(found)));
     std::vector<std::string> names;
@@ -187,4 +187,4 @@ namespace plumbline::app
     page.defects = {fields[0], fields[1]};
     report::write_check_page(page, folder);
   }
-} // namespace plumbline::app
+} // namespace plumbline::check

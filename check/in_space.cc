@@ -1,22 +1,17 @@
-#include "check_in_space.h"
+#include "check/in_space.h"
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "check_findings.h"
-#include "check_text.h"
+#include "check/text.h"
 #include "io/results_json.h"
 #include "meshfree/check/bond_values.h"
-#include "output_folder.h"
 #include "report/text_table.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iostream>
 
-namespace plumbline::app
+namespace plumbline::check
 {
-  namespace fs = std::filesystem;
   using meshfree::FindingsInSpace;
   using meshfree::WeightsInSpace;
 
@@ -143,8 +138,7 @@ namespace plumbline::app
     }
   } // namespace
 
-  int check_in_space(const scene::Scene &scene, const CheckOptions &options,
-                     const Requirements &required)
+  InSpace find_in_space(const scene::Scene &scene, const Input &input, const Requirements &required)
   {
     if (!scene.domain.mesh.is_lattice())
       throw InputError("Domain/mesh = " + scene.domain.mesh.name +
@@ -155,39 +149,35 @@ namespace plumbline::app
       throw InputError("in three dimensions weights are checked on one box; give Domain/boxes with "
                        "one, and clear Domain/holes");
     const geometry::Cuboid &omega = solid.include.front();
-    WeightsInSpace given =
-        meshfree::read_weights_in_space(options.nodes_file, options.bonds_file, omega);
-    const problem::Level level = level_of(scene, meshfree::node_spacing(given, omega));
-    const auto kernel = make_kernel_in_space(scene, level.horizon);
-    to_weights(meshfree::to_bond_values(options.bonds_are, "--bonds-are"), kernel, given);
-    const FindingsInSpace found = meshfree::find_defects(given, kernel, omega, scene.methods.names);
-    const auto wrong = complaints(found, given, required, level);
-    const std::string json = io::to_json(results_of(scene, found, given, level, wrong));
-    if (options.json)
-      std::cout << json;
-    else if (!options.quiet)
-    {
-      std::string body;
-      std::vector<std::string> lines = words_of(found, given);
-      if (const std::string assumed = assumed_horizon(scene, options, level); !assumed.empty())
-        lines.push_back(assumed);
-      for (const std::string &line : lines)
-        body += report::wrapped(line, report::summary_columns, 2) + '\n';
-      body +=
-          "not checked in three dimensions: Voronoi cells, matrix, solutions; no maps are drawn\n";
-      std::cout << check_summary(body, wrong, wrong.empty() ? "as required" : "NOT as required",
-                                 "in check.json (-o FOLDER)");
-    }
-    if (!options.output.empty())
-    {
-      const OutputFolder output(options.output, {"check", scene.name, scene.text},
-                                base::Communicator::alone());
-      std::ofstream file(fs::path(options.output) / "check.json");
-      file << json;
-      if (!file.flush())
-        throw InputError("cannot write all of check.json in '" + options.output +
-                         "'; free some space, or give another output folder (-o)");
-    }
-    return wrong.empty() ? 0 : 1;
+    InSpace found;
+    found.given = meshfree::read_weights_in_space(input.nodes_file, input.bonds_file, omega);
+    found.level = level_of(scene, meshfree::node_spacing(found.given, omega));
+    const auto kernel = make_kernel_in_space(scene, found.level.horizon);
+    to_weights(meshfree::to_bond_values(input.bonds_are, "--bonds-are"), kernel, found.given);
+    static_cast<FindingsInSpace &>(found) =
+        meshfree::find_defects(found.given, kernel, omega, scene.methods.names);
+    found.complaints = complaints(found, found.given, required, found.level);
+    found.assumed = assumed_horizon(scene, input, found.level);
+    return found;
   }
-} // namespace plumbline::app
+
+  std::string text(const InSpace &found)
+  {
+    std::string body;
+    std::vector<std::string> lines = words_of(found, found.given);
+    if (!found.assumed.empty())
+      lines.push_back(found.assumed);
+    for (const std::string &line : lines)
+      body += report::wrapped(line, report::summary_columns, 2) + '\n';
+    body +=
+        "not checked in three dimensions: Voronoi cells, matrix, solutions; no maps are drawn\n";
+    return check_summary(body, found.complaints,
+                         found.complaints.empty() ? "as required" : "NOT as required",
+                         "in check.json (-o FOLDER)");
+  }
+
+  std::string to_json(const InSpace &found, const scene::Scene &scene)
+  {
+    return io::to_json(results_of(scene, found, found.given, found.level, found.complaints));
+  }
+} // namespace plumbline::check

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "check_findings.h"
+#include "check/findings.h"
 
 #include <optional>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   /// What a caller of `plumbline check` demands of weights.
   struct Requirements
@@ -31,4 +31,4 @@ namespace plumbline::app
 
   /// One outlier in words: which, where in the files, what is expected.
   std::string text(const meshfree::Outlier &outlier, const Findings &found);
-} // namespace plumbline::app
+} // namespace plumbline::check

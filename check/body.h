@@ -1,10 +1,10 @@
 #pragma once
 
-#include "check_findings.h"
+#include "check/findings.h"
+#include "check/requirements.h"
 #include "report/tables.h"
-#include "requirements.h"
 
-namespace plumbline::app
+namespace plumbline::check
 {
   /// A body whose weights are checked.
   struct GivenBody
@@ -34,4 +34,4 @@ namespace plumbline::app
 
   /// The value of "body" in check.json.
   std::string body_json(const Findings &found);
-} // namespace plumbline::app
+} // namespace plumbline::check

@@ -1,11 +1,10 @@
-#include "force_program.h"
+#include "check/force_program.h"
 
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/exec_words.h"
 #include "base/number_text.h"
 #include "base/text_file.h"
-#include "run_parts.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -22,7 +21,7 @@
 #include <thread>
 #include <unordered_map>
 
-namespace plumbline::app
+namespace plumbline::check
 {
   using meshfree::NodeVectors;
 
@@ -70,9 +69,9 @@ namespace plumbline::app
       return result;
     }
 
-    /// Waits for the leader of a process group; an interrupt terminates the group.
+    /// Waits for the leader of a process group; it is terminated where it should stop.
     /// @return  its status as returned by waitpid
-    int wait_for(pid_t process)
+    int wait_for(pid_t process, const std::function<bool()> &should_stop)
     {
       using std::chrono::milliseconds;
       constexpr milliseconds longest(20);
@@ -81,7 +80,7 @@ namespace plumbline::app
       int status = 0;
       while (waitpid(process, &status, WNOHANG) == 0)
       {
-        if (is_interrupted() && !is_told)
+        if (should_stop() && !is_told)
         {
           kill(-process, SIGTERM);
           is_told = true;
@@ -93,7 +92,8 @@ namespace plumbline::app
     }
 
     /// @return  its status as of waitpid
-    int run_by_shell(const std::string &command, const std::string &log)
+    int run_by_shell(const std::string &command, const std::string &log,
+                     const std::function<bool()> &should_stop)
     {
       std::vector<std::string> words = {"sh", "-c", command}, settings = first_environment();
       const std::vector<char *> arguments = base::exec_words(words),
@@ -115,7 +115,7 @@ namespace plumbline::app
       if (error != 0)
         throw InputError("the shell cannot be started: " + std::string(std::strerror(error)) +
                          "; end other programs");
-      const int status = wait_for(process);
+      const int status = wait_for(process, should_stop);
       kill(-process, SIGTERM); // what it left in the background
       return status;
     }
@@ -136,9 +136,10 @@ namespace plumbline::app
 
   template <int dim>
   ForceProgram<dim>::ForceProgram(const std::string &command, const ProgramNodes<dim> &nodes,
-                                  ForceKind kind)
-      : nodes_(nodes), kind_(kind), folder_("probe"), nodes_file_(folder_.path() / "nodes.csv"),
-        forces_file_(folder_.path() / "forces.csv"), log_file_(folder_.path() / "log"),
+                                  ForceKind kind, std::function<bool()> should_stop)
+      : nodes_(nodes), kind_(kind), should_stop_(std::move(should_stop)), folder_("probe"),
+        nodes_file_(folder_.path() / "nodes.csv"), forces_file_(folder_.path() / "forces.csv"),
+        log_file_(folder_.path() / "log"),
         command_(replace(
             replace(command, "{nodes}", shell_word(nodes_file_.string()), "the displaced nodes"),
             "{forces}", shell_word(forces_file_.string()), "the forces that it writes"))
@@ -229,8 +230,8 @@ namespace plumbline::app
     std::error_code error;
     std::filesystem::remove(forces_file_, error);
     write_nodes(displacements);
-    const int status = run_by_shell(command_, log_file_.string());
-    if (is_interrupted())
+    const int status = run_by_shell(command_, log_file_.string(), should_stop_);
+    if (should_stop_())
       throw Interrupted();
     if (WIFSIGNALED(status))
       throw InputError("the command '" + command_ + "' was ended by a signal (" +
@@ -257,4 +258,4 @@ namespace plumbline::app
 
   template class ForceProgram<2>;
   template class ForceProgram<3>;
-} // namespace plumbline::app
+} // namespace plumbline::check

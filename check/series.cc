@@ -1,0 +1,265 @@
+#include "check/series.h"
+
+#include "base/error.h"
+#include "base/number_text.h"
+#include "check/files.h"
+#include "check/text.h"
+#include "io/results_json.h"
+#include "report/report.h"
+#include "report/text_table.h"
+#include "scene/values.h"
+#include "study/conclusions.h"
+#include "study/solution_record.h"
+#include "study/trend.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::check
+{
+  namespace fs = std::filesystem;
+  using report::Table;
+
+  namespace
+  {
+    bool has_mark(const std::string &file)
+    {
+      return file.find(scene::NodeSource::level_mark) != std::string::npos;
+    }
+
+    std::string at(const std::string &file, double h)
+    {
+      return scene::NodeSource{file}.file_at(h);
+    }
+
+    std::string level_name(double h)
+    {
+      return "h_" + scene::short_number(h);
+    }
+
+    scene::Scene at_level_alone(scene::Scene scene, const problem::Level &level)
+    {
+      scene.study.series.front().levels = {level};
+      return scene;
+    }
+
+    /// In norms that a check takes: others rest on what the weights do not give.
+    scene::Scene with_known_error(scene::Scene scene)
+    {
+      auto &[norm, target] = scene.study.decisive_error;
+      if (norm != scene::Norm::nodal_linf)
+        norm = scene::Norm::averages_l2;
+      if (target == scene::Target::finest || target == scene::Target::reference)
+      {
+        norm = scene::Norm::averages_l2; // the reference has no nodal values
+        target = scene::Target::reference;
+      }
+      return scene;
+    }
+
+    study::StudyResults conclude(const scene::Scene &scene, const std::vector<Findings> &levels)
+    {
+      study::StudyResults results;
+      results.analysis = "statics";
+      results.scene_name = scene.name;
+      results.purpose = scene.purpose;
+      results.scene_text = scene.text;
+      results.regime = scene.study.regime;
+      results.decisive_error = scene.study.decisive_error.text();
+      for (std::size_t k = 0; k < levels.size(); ++k)
+        for (const CaseCheck &one : levels[k].cases)
+          for (study::Record record : {one.weights, one.reference})
+          {
+            record.key.analysis = results.analysis;
+            record.key.level = static_cast<unsigned int>(k);
+            // the time of this program's solver, not of the code that made the weights
+            record.cost.setup_seconds = record.cost.solve_seconds = 0;
+            record.cost.peak_bytes = 0;
+            results.records.push_back(std::move(record));
+          }
+      study::conclude(scene, results);
+      results.advice.clear(); // on costs
+      results.expectations.clear();
+      return results;
+    }
+
+    /// Of the weights, by the error that decides.
+    std::vector<study::Trend> trends_of(const study::StudyResults &results)
+    {
+      std::vector<study::Trend> trends;
+      for (const study::Trend &trend : results.trends)
+        if (trend.family == study::MethodFamily::meshfree && trend.error == results.decisive_error)
+          trends.push_back(trend);
+      return trends;
+    }
+
+    Table table_of(const std::vector<Findings> &levels, const std::vector<study::Trend> &trends)
+    {
+      Table table;
+      table.columns = {"h",      "horizon", "bonds", "first moments", "second moments",
+                       "median", "rule"};
+      for (const study::Trend &trend : trends)
+        for (const char *const what : {"error of ", "rate of "})
+          table.columns.emplace_back(what + trend.problem);
+      for (std::size_t k = 0; k < levels.size(); ++k)
+      {
+        const Findings &found = levels[k];
+        table.rows.push_back({report::number_cell(found.level.level.h),
+                              report::number_cell(found.level.level.horizon),
+                              report::count_cell(found.weights.n_bonds),
+                              report::error_cell(found.moments.defects[0].worst.value),
+                              report::error_cell(found.moments.second.value),
+                              report::error_cell(found.moments.defects[1].median),
+                              report::text_cell(found.rule)});
+        for (const study::Trend &trend : trends)
+        {
+          const auto place =
+              std::find(trend.x.begin(), trend.x.end(), found.level.level.h) - trend.x.begin();
+          const auto i = static_cast<std::size_t>(place);
+          const bool is_there = i < trend.x.size();
+          table.rows.back().push_back(
+              report::known(is_there, report::error_cell(is_there ? trend.values[i] : 0)));
+          table.rows.back().push_back(report::number_cell(study::observed_rate(trend, i)));
+        }
+      }
+      return table;
+    }
+
+    nlohmann::ordered_json parsed(const std::string &json)
+    {
+      return nlohmann::ordered_json::parse(json);
+    }
+
+    int exit_code(const Findings &found, const Requirements &required)
+    {
+      return complaints(found, required).empty() ? 0 : 1;
+    }
+  } // namespace
+
+  bool is_series(const Input &input)
+  {
+    if (has_mark(input.nodes_file) != has_mark(input.bonds_file))
+      throw InputError("of '" + input.nodes_file + "' and '" + input.bonds_file +
+                       "' one is a series and one is not; write {h} in both names, or in none");
+    return has_mark(input.nodes_file);
+  }
+
+  LevelFiles find_level_files(const scene::Scene &scene, const Input &input)
+  {
+    if (scene.study.series.size() > 1)
+      throw InputError("files named " + input.nodes_file +
+                       " stand for one series of levels, "
+                       "but the scene has " +
+                       std::to_string(scene.study.series.size()) +
+                       "; give one value of Study/m, or of Study/horizon");
+    LevelFiles files{with_known_error(scene), {}, {}, ""};
+    for (const problem::Level &level : scene.study.series.front().levels)
+    {
+      Input own = input;
+      own.nodes_file = at(input.nodes_file, level.h);
+      own.bonds_file = at(input.bonds_file, level.h);
+      const bool has_nodes = fs::exists(own.nodes_file);
+      if (has_nodes && fs::exists(own.bonds_file))
+      {
+        files.levels.push_back(level);
+        files.inputs.push_back(own);
+      }
+      else
+        files.missing += (files.missing.empty() ? "'" : ", '") +
+                         (has_nodes ? own.bonds_file : own.nodes_file) + "'";
+    }
+    if (files.levels.size() < 2)
+      throw InputError("a series needs the files of two levels of Study/h at least, but there "
+                       "is no " +
+                       files.missing);
+    files.scene.study.series.front().levels = files.levels;
+    return files;
+  }
+
+  Series find_series(const LevelFiles &files, const method::Methods &references,
+                     const std::function<void(const std::string &, double)> &on_level)
+  {
+    double all = 0, done = 0; // by the number of cells
+    for (const problem::Level &level : files.levels)
+      all += std::pow(level.h, -2);
+    Series found;
+    for (std::size_t k = 0; k < files.levels.size(); ++k)
+    {
+      on_level("level " + std::to_string(k + 1) + " of " + std::to_string(files.levels.size()),
+               done / all);
+      found.levels.push_back(
+          find(at_level_alone(files.scene, files.levels[k]), files.inputs[k], references));
+      done += std::pow(files.levels[k].h, -2);
+    }
+    found.results = conclude(files.scene, found.levels);
+    found.trends = trends_of(found.results);
+    found.assumed = assumed_horizon(files.scene, files.inputs.front(), files.levels.front());
+    return found;
+  }
+
+  std::vector<std::string> complaints(const Series &found, const Requirements &required)
+  {
+    std::vector<std::string> wrong;
+    for (const Findings &level : found.levels)
+      for (const std::string &one : complaints(level, required))
+        wrong.push_back("h = " + base::to_text(level.level.level.h, 6) + ": " + one);
+    for (const study::Trend &trend : found.trends)
+      if (required.ac &&
+          (trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::failed))
+        wrong.push_back("required ac: " + trend.problem + ", " + trend.error + ": " +
+                        trend.verdict);
+    return wrong;
+  }
+
+  std::string text(const Series &found, const Requirements &required, const std::string &page)
+  {
+    constexpr std::size_t most_complaints = 6;
+    const std::vector<std::string> wrong = complaints(found, required);
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0; i < std::min(most_complaints, wrong.size()); ++i)
+      sentences.push_back(wrong[i]);
+    if (wrong.size() > most_complaints)
+      sentences.push_back("and " + std::to_string(wrong.size() - most_complaints) +
+                          " more in check.json");
+    for (const study::Trend &trend : found.trends)
+      sentences.push_back(trend.problem + ", " + trend.error + ": " + trend.verdict + "; " +
+                          trend.reason);
+    const Table table = report::without_empty_columns(table_of(found.levels, found.trends));
+    return check_summary(report::heading(found.results.scene_name, found.results.purpose) + "\n\n" +
+                             report::to_text(table, report::summary_columns) +
+                             (found.assumed.empty() ? "" : found.assumed + "\n") +
+                             "report: " + page + "\n",
+                         sentences, wrong.empty() ? "as required" : "NOT as required");
+  }
+
+  std::string to_json(const Series &found, const LevelFiles &files, const Requirements &required)
+  {
+    const std::vector<std::string> wrong = complaints(found, required);
+    nlohmann::ordered_json json = {{"schema", check_schema},
+                                   {"levels", nlohmann::ordered_json::array()}};
+    for (std::size_t k = 0; k < found.levels.size(); ++k)
+      json["levels"].push_back(parsed(check_json(found.levels[k], required, files.inputs[k],
+                                                 exit_code(found.levels[k], required))));
+    json["study"] = parsed(io::to_json(found.results));
+    json["complaints"] = wrong;
+    json["exit_code"] = wrong.empty() ? 0 : 1;
+    return json.dump(2) + "\n";
+  }
+
+  void write_series(const Series &found, const LevelFiles &files, const Requirements &required,
+                    const fs::path &folder)
+  {
+    report::write_file(folder / "check.json", to_json(found, files, required));
+    report::write_file(folder / "levels.csv", report::to_csv(table_of(found.levels, found.trends)));
+    for (std::size_t k = 0; k < found.levels.size(); ++k)
+    {
+      const fs::path own = folder / level_name(files.levels[k].h);
+      fs::create_directories(own);
+      write_check(found.levels[k], required, files.inputs[k], exit_code(found.levels[k], required),
+                  own);
+    }
+    report::write_report(found.results, folder);
+  }
+} // namespace plumbline::check
