@@ -218,8 +218,8 @@ namespace plumbline::app
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
     const bool is_talking = !options.quiet && base::Communicator::all().rank() == 0;
-    std::optional<ProgressLine> progress(is_talking);
-    const fs::path folder = output_folder(options, scene);
+    std::optional<base::ProgressLine> progress(is_talking);
+    const fs::path folder = output_folder(options.output, scene);
     const study::Checkpoints checkpoints{folder, is_interrupted};
     const AnalysisRow row = make_row(checkpoints);
     const study::Analysis &analysis = row.analysis;

@@ -3,18 +3,17 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "certified_set.h"
 #include "io/certificate_json.h"
+#include "io/certified_values.h"
 #include "io/point_values.h"
+#include "measures.h"
 #include "methods.h"
 #include "output_folder.h"
-#include "report/text_table.h"
-#include "rules_table.h"
+#include "report/certificate_text.h"
 #include "run_parts.h"
 #include "sha256.h"
 #include "study/certificate.h"
 #include "study/grade.h"
-#include "study/method_names.h"
 #include "study/preflight.h"
 #include "study/refusal.h"
 
@@ -51,126 +50,6 @@ namespace plumbline::app
                        "one, e.g. IPA-AC-R2");
     }
 
-    /// For people rounded to a tenth of the bound's decade, which makes zeros of what is none.
-    report::Cell value_cell(double value, double bound)
-    {
-      constexpr int most = 17, fallback = 4;
-      report::Cell cell = report::number_cell(value);
-      if (!(bound > 0) || !std::isfinite(value))
-        return cell;
-      const double unit = std::pow(10., std::floor(std::log10(bound)) - 1),
-                   shown = std::round(value / unit) * unit + 0.; // no -0
-      const double digits =
-          shown == 0 ? fallback : std::floor(std::log10(std::abs(shown) / unit)) + 1;
-      cell.text = base::to_text(shown, static_cast<int>(std::clamp<double>(digits, 1, most)));
-      return cell;
-    }
-
-    std::vector<report::Column> columns_of(const Certificate &certificate)
-    {
-      const auto name = [&](const std::string &word, unsigned int c)
-      { return word + (certificate.n_components == 1 ? "" : std::to_string(c + 1)); };
-      std::vector<report::Column> columns = {"x", "y"};
-      if (certificate.points.front().x.size() == 3)
-        columns.emplace_back("z");
-      for (unsigned int c = 0; c < certificate.n_components; ++c)
-        columns.emplace_back(name("u", c));
-      columns.emplace_back("bound");
-      for (unsigned int c = 0; c < certificate.n_components; ++c)
-        columns.push_back(
-            {name("u", c) + " by " + certificate.meshfree.method, {name("other", c)}});
-      columns.push_back({"its bound", {"other_bound"}});
-      columns.emplace_back("difference");
-      columns.emplace_back("digits");
-      return columns;
-    }
-
-    std::vector<report::Cell> row_of(const CertifiedValue &one, std::size_t dimension)
-    {
-      std::vector<report::Cell> row;
-      for (const double x : one.x)
-        row.push_back(report::number_cell(x));
-      if (one.x.empty())
-      {
-        row.push_back(report::text_cell("mean"));
-        row.insert(row.end(), dimension - 1, report::empty_cell());
-      }
-      for (const double u : one.value)
-        row.push_back(value_cell(u, one.bound));
-      row.push_back(report::error_cell(one.bound));
-      for (const double u : one.other)
-        row.push_back(value_cell(u, one.other_bound));
-      row.push_back(report::error_cell(one.other_bound));
-      row.push_back(report::error_cell(one.difference()));
-      row.push_back(report::count_cell(one.digits));
-      return row;
-    }
-
-    report::Table table_of(const Certificate &certificate, bool has_mean)
-    {
-      report::Table table{"", columns_of(certificate), {}};
-      const std::size_t dimension = certificate.points.front().x.size();
-      for (const CertifiedValue &one : certificate.points)
-        table.rows.push_back(row_of(one, dimension));
-      if (has_mean && certificate.mean)
-        table.rows.push_back(row_of(*certificate.mean, dimension));
-      return table;
-    }
-
-    std::string way_text(const study::CertifiedWay &way, const std::string &what)
-    {
-      std::string sizes;
-      for (const double h : way.h)
-        sizes += (sizes.empty() ? "" : ", ") + text(h);
-      return way.method + " (" + what + "): h = " + sizes +
-             (std::isfinite(way.order) ? "; order " + text(way.order) : "") +
-             (std::isfinite(way.error) ? "; largest true error " + text(way.error) : "");
-    }
-
-    std::string n_values(std::size_t n)
-    {
-      return std::to_string(n) + (n == 1 ? " value" : " values");
-    }
-
-    std::string answer_of(const Certificate &certificate)
-    {
-      return n_values(certificate.points.size()) + " certified to at least " +
-             std::to_string(certificate.least_digits()) + " digits by " +
-             certificate.galerkin.method + ", confirmed to " +
-             std::to_string(certificate.confirmed_digits()) + " by " + certificate.meshfree.method +
-             (certificate.mean
-                  ? "; the mean to " + std::to_string(certificate.mean->digits) + " digits"
-                  : "");
-    }
-
-    std::string markdown_of(const Certificate &certificate)
-    {
-      return "# Certificate: " + certificate.name + "\n\n" + certificate.purpose + "\n\n" +
-             answer_of(certificate) + ". Bounds hold in practice and are not proven; digits are " +
-             "relative to " + text(certificate.size) +
-             ", the root mean square of the values.\n\n- " +
-             way_text(certificate.galerkin, "certified") + "\n- " +
-             way_text(certificate.meshfree, "confirms") + "\n- horizon " +
-             text(certificate.horizon) + "\n- plumbline " + certificate.version +
-             "\n- SHA-256 of the scene's text: `" + certificate.hash + "`\n\n" +
-             report::to_markdown(table_of(certificate, true)) +
-             "\n## Meshfree rules at these points\n\n" +
-             report::to_markdown(table_of_rules(certificate)) + "\n## Scene\n\n```\n" +
-             certificate.scene_text + "```\n";
-    }
-
-    /// For a terminal: as many values as there is room for.
-    std::string shown(const Certificate &certificate)
-    {
-      constexpr std::size_t room = 16;
-      std::string text;
-      for (const std::string &line :
-           report::first_lines(report::lines_of(report::to_text(table_of(certificate, true))), room,
-                               "in certificate.md"))
-        text += line + '\n';
-      return text;
-    }
-
     /// Why it is refused.
     [[noreturn]] void refuse(const Certificate &certificate)
     {
@@ -182,7 +61,7 @@ namespace plumbline::app
         n_wrong += one->error() > one->bound ? 1 : 0;
       }
       const std::string of =
-          " of " + n_values(certificate.points.size() + (certificate.mean ? 1 : 0));
+          " of " + report::n_values(certificate.points.size() + (certificate.mean ? 1 : 0));
       std::string reason;
       if (n_without > 0)
         reason = "there is no bound for " + std::to_string(n_without) + of +
@@ -220,8 +99,7 @@ namespace plumbline::app
 
     scene::Scene read_certifiable(const CertifyOptions &options)
     {
-      scene::Scene scene = study::with_names_of(
-          scene::read_scene(options.scene_file, options.overrides), all_methods());
+      scene::Scene scene = scene_of_file(options.scene_file, options.overrides);
       study::check_certifiable(scene);
       return scene;
     }
@@ -263,14 +141,15 @@ namespace plumbline::app
       const study::CertifiedPlaces places(certificate);
       for (std::size_t i = 0; i < certificate.points.size(); ++i)
         if (const auto &x = certificate.points[i].x; places.find(x) != i)
-          throw InputError("Output/points: " + place_text(x) + " is listed twice; leave one out");
+          throw InputError("Output/points: " + io::place_text(x) +
+                           " is listed twice; leave one out");
       if (!(certificate.size > 0))
         throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
                              "to its size; give a load, or other points");
       const bool is_refused = !certificate.refused().empty();
       if (is_first &&
           (is_refused || certificate.least_digits() == 0 || certificate.confirmed_digits() == 0))
-        std::cerr << report::to_text(table_of(certificate, true));
+        std::cerr << report::to_text(report::certificate_table(certificate, true));
       if (is_refused)
         refuse(certificate);
       require_digits(certificate);
@@ -279,17 +158,9 @@ namespace plumbline::app
     void write(const Certificate &certificate, const fs::path &folder)
     {
       base::write_file(folder / "certificate.json", io::to_json(certificate));
-      base::write_file(folder / "certificate.csv", report::to_csv(table_of(certificate, false)));
-      base::write_file(folder / "certificate.md", markdown_of(certificate));
-    }
-
-    std::string summary(const Certificate &certificate, const fs::path &folder)
-    {
-      return report::heading(certificate.name, certificate.purpose) + '\n' +
-             way_text(certificate.galerkin, "certified") + '\n' +
-             way_text(certificate.meshfree, "confirms") + "\n\n" + shown(certificate) +
-             "\ncertificate: " + (folder / "certificate.json").string() + "\n\n" +
-             report::wrapped(answer_of(certificate), report::summary_columns, 2) + '\n';
+      base::write_file(folder / "certificate.csv",
+                       report::to_csv(report::certificate_table(certificate, false)));
+      base::write_file(folder / "certificate.md", report::certificate_markdown(certificate));
     }
   } // namespace
 
@@ -306,10 +177,9 @@ namespace plumbline::app
     const method::Methods rules = rules_of(scene, methods);
     const std::size_t level = reference_level(options, scene, methods, reference, rules);
     study::check_data(scene);
-    const fs::path folder =
-        options.output.empty() ? fs::path("results") / scene.name : fs::path(options.output);
+    const fs::path folder = output_folder(options.output, scene);
     const OutputFolder output(folder, {"certify", scene.name, scene.text}, ranks);
-    std::optional<ProgressLine> progress(!is_quiet);
+    std::optional<base::ProgressLine> progress(!is_quiet);
     progress->show("certify", 0);
     Certificate certificate =
         scene.domain.is_in_space()
@@ -321,16 +191,11 @@ namespace plumbline::app
     certificate.hash = sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;
     check_result(certificate, is_first);
-    ranks.together(
-        [&]
-        {
-          if (is_first)
-            write(certificate, folder);
-        });
+    on_first_rank(ranks, [&] { write(certificate, folder); });
     if (is_first && options.json)
       std::cout << io::to_json(certificate);
     else if (!is_quiet)
-      std::cout << summary(certificate, folder);
+      std::cout << report::certificate_summary(certificate, (folder / "certificate.json").string());
     return 0;
   }
 } // namespace plumbline::app

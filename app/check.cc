@@ -8,11 +8,11 @@
 #include "check/in_space.h"
 #include "check/series.h"
 #include "check/text.h"
-#include "methods.h"
+#include "measures.h"
 #include "output_folder.h"
+#include "reference/method.h"
 #include "run_parts.h"
 #include "scene/scene_keys.h"
-#include "study/method_names.h"
 
 #include <array>
 #include <functional>
@@ -82,7 +82,7 @@ namespace plumbline::app
                   << '\n';
       check::Series found;
       {
-        ProgressLine progress(!options.quiet && is_first);
+        base::ProgressLine progress(!options.quiet && is_first);
         found = check::find_series(files, reference::methods(),
                                    [&](const std::string &what, double fraction)
                                    { progress.show(what, fraction); });
@@ -136,8 +136,7 @@ namespace plumbline::app
     end_at_interrupts();
     const check::Requirements required = check::parse_requirements(options.required);
     refuse_other_bodies(options);
-    const scene::Scene scene = study::with_names_of(
-        scene::read_scene(options.scene_file, options.overrides), all_methods());
+    const scene::Scene scene = scene_of_file(options.scene_file, options.overrides);
     if (scene.study.regime == scene::Regime::variable)
       throw InputError("Study/regime = variable: weights are those of one value of " +
                        scene.study.variable +

@@ -67,7 +67,7 @@ namespace plumbline::app
   {
     if (base::Communicator::all().rank() != 0)
       return 0; // the work is not shared among ranks: the first one does it
-    const fs::path folder = output_folder(options, scene);
+    const fs::path folder = output_folder(options.output, scene);
     check_frames(scene, study::choose_methods(scene, all_methods()), folder);
     study::TransientOptions transient;
     transient.on_frame = [folder, times = std::map<std::string, std::vector<double>>()](

@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "certified_set.h"
-#include "report/text_table.h"
-#include "rules_table.h"
+#include "io/certified_values.h"
+#include "report/certificate_text.h"
 #include "study/grade.h"
 
 #include <algorithm>
@@ -194,7 +194,7 @@ namespace plumbline::app
       if (options.is_scene)
         std::cout << certificate.scene_text;
       else
-        std::cout << points_csv(certificate);
+        std::cout << io::points_csv(certificate);
       return 0;
     }
   } // namespace
@@ -211,7 +211,7 @@ namespace plumbline::app
     std::vector<double> h = sizes_of(options);
     std::vector<study::GivenValues> given;
     for (const std::string &file : options.files)
-      given.push_back(read_values(file, certificate));
+      given.push_back(io::read_values(file, certificate));
     if (!h.empty()) // from coarse to fine
     {
       std::vector<std::size_t> order(h.size());
@@ -232,7 +232,7 @@ namespace plumbline::app
                 << text(certificate.size) << "\n\n"
                 << report::to_text(table_of(found, !h.empty())) << '\n'
                 << "Meshfree rules of Plumbline at the same points:\n"
-                << report::to_text(table_of_rules(certificate)) << '\n'
+                << report::to_text(report::rules_table(certificate)) << '\n'
                 << report::wrapped(answer_of(found, !h.empty()), report::summary_columns, 2)
                 << '\n';
     const std::vector<std::string> missed = complaints(required, found);

@@ -11,7 +11,7 @@ namespace plumbline::app
 
   struct GradeOptions
   {
-    std::vector<std::string> files;    ///< see read_values()
+    std::vector<std::string> files;    ///< see io::read_values()
     std::string problem;               ///< see certificate_of()
     std::vector<std::string> h;        ///< mesh size of each file, separated as to_numbers() says
     std::vector<std::string> required; ///< digits=N, order=P, limit=certified

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-// What the commands that measure operators, and solve nothing, have in common.
+// What commands that read a scene have in common.
 namespace plumbline::app
 {
   struct MeasureOptions
@@ -19,8 +19,14 @@ namespace plumbline::app
     bool quiet = false, json = false;
   };
 
-  /// The scene with its overrides, without a reference: nothing is held against one.
+  /// The scene with its overrides, and names of methods as the methods write them.
+  /// @param methods  comma separated, instead of the scene's; empty: those
+  scene::Scene scene_of_file(const std::string &file, std::vector<scene::Override> overrides,
+                             const std::string &methods = "");
+
+  /// Without a reference: nothing is held against one.
   scene::Scene read_alone(const MeasureOptions &options);
 
-  std::filesystem::path output_folder(const MeasureOptions &options, const scene::Scene &scene);
+  /// @param output  empty: results/NAME of the scene
+  std::filesystem::path output_folder(const std::string &output, const scene::Scene &scene);
 } // namespace plumbline::app

@@ -62,7 +62,7 @@ namespace plumbline::app
       watch_interrupts("\ninterrupted: stopping the force program\n");
       ProbeFindings found;
       {
-        ProgressLine progress(!options.quiet);
+        base::ProgressLine progress(!options.quiet);
         std::size_t n_done = 0;
         found = meshfree::probe<dim>(
             plan,

@@ -10,7 +10,6 @@
 #include "report/report.h"
 #include "report/statics_summary.h"
 #include "scene/capabilities.h"
-#include "study/method_names.h"
 #include "study/preflight.h"
 #include "study/sampling.h"
 #include "study/statics.h"
@@ -72,15 +71,12 @@ namespace plumbline::app
                     "Domain/mesh = squares is shared");
     }
 
-    scene::Scene read_scene(const RunOptions &options)
+    scene::Scene read(const RunOptions &options)
     {
       auto overrides = options.overrides;
-      if (!options.methods.empty())
-        overrides.push_back({"Methods/names", options.methods});
       if (!options.model.empty())
         overrides.push_back({"Solver/model", options.model});
-      scene::Scene scene =
-          study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
+      scene::Scene scene = scene_of_file(options.scene_file, overrides, options.methods);
       if (scene.fracture.is_there())
         throw InputError("scene '" + scene.name +
                          "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
@@ -153,7 +149,7 @@ namespace plumbline::app
   int run(const RunOptions &options)
   {
     end_at_interrupts();
-    const scene::Scene scene = read_scene(options);
+    const scene::Scene scene = read(options);
     if (scene.time.is_dynamic())
     {
       check_analysis(scene, scene::Analysis::transient);

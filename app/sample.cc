@@ -10,9 +10,8 @@
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
 #include "run_parts.h"
-#include "sample_taker.h"
 #include "study/growth_analysis.h"
-#include "study/method_names.h"
+#include "study/sample_taker.h"
 #include "workers.h"
 
 #include <algorithm>
@@ -33,11 +32,7 @@ namespace plumbline::app
         throw InputError("scene '" + options.scene_file +
                          "' is a pipe, but each sampling process must read the scene again; save "
                          "it to a file and pass the name of that file");
-      auto overrides = options.overrides;
-      if (!options.methods.empty())
-        overrides.push_back({"Methods/names", options.methods});
-      scene::Scene scene =
-          study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
+      scene::Scene scene = scene_of_file(options.scene_file, options.overrides, options.methods);
       if (!scene.sampling.is_there())
         throw InputError("scene '" + scene.name +
                          "': Sampling/rule = none, so that there are no samples; write tensor, "
@@ -63,8 +58,9 @@ namespace plumbline::app
       record.sample = sample;
       try
       {
-        record.cases = sample_taker(scene).take(
-            plan.at(scene, sample), files.folder() / ("sample_" + std::to_string(sample)));
+        record.cases = study::sample_taker(scene, all_methods())
+                           .take(plan.at(scene, sample),
+                                 files.folder() / ("sample_" + std::to_string(sample)));
       }
       catch (const std::exception &error) // of any kind, out of memory too: the others go on
       {
@@ -109,7 +105,7 @@ namespace plumbline::app
           "--threads", std::to_string(n_threads)};
       for (const scene::Override &one : options.overrides)
         arguments.insert(arguments.end(), {"--set", one.key + "=" + one.value});
-      if (is_growth(scene))
+      if (study::is_growth(scene))
         arguments.insert(
             arguments.end(),
             {"--set", "Fracture/solver=" + base::word(study::expected_size(scene, n_jobs).solver)});
@@ -186,9 +182,9 @@ namespace plumbline::app
       if (is_talking && due.size() < plan.values.size() && communicator.n_ranks() == 1)
         std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
                   << folder.string() << "' already\n";
-      if (is_talking && is_growth(scene))
+      if (is_talking && study::is_growth(scene))
         tell_size(scene, due.size(), n_jobs, communicator.n_ranks());
-      ProgressLine progress(is_talking);
+      base::ProgressLine progress(is_talking);
       Forecast forecast(due.size(), is_talking);
       const auto n_done = [&]
       {
@@ -222,20 +218,20 @@ namespace plumbline::app
       end_at_interrupts();
     const scene::Scene scene = read(options);
     const study::SamplingPlan plan = study::make_sampling_plan(scene);
-    const fs::path folder = output_folder(options, scene);
+    const fs::path folder = output_folder(options.output, scene);
     const report::SampleFiles files(folder / "samples", subject_of(options, scene));
     if (options.is_worker)
       return take_samples(scene, plan, files);
 
-    sample_taker(scene).check(scene, folder, n_processes(options, plan));
+    study::sample_taker(scene, all_methods()).check(scene, folder, n_processes(options, plan));
     const base::Communicator communicator = base::Communicator::all();
     const OutputFolder output(folder, {"sample", scene.name, scene.text}, communicator);
-    communicator.together(
-        [&]
-        {
-          if (communicator.rank() == 0 && !files.are_there())
-            files.begin();
-        });
+    on_first_rank(communicator,
+                  [&]
+                  {
+                    if (!files.are_there())
+                      files.begin();
+                  });
     watch_interrupts("\ninterrupted: ending the sampling processes, then writing the results of "
                      "finished samples; press Ctrl-C again to stop at once\n");
     take_all(options, scene, plan, files, folder);

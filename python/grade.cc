@@ -3,6 +3,7 @@
 #include "arrays.h"
 #include "base/choice.h"
 #include "bindings.h"
+#include "io/certified_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,7 @@ namespace plumbline::python
       const Certificate certificate = app::certificate_of(problem, prefix_of_package());
       std::vector<study::GivenValues> given;
       for (const std::string &file : files)
-        given.push_back(app::read_values(file, certificate));
+        given.push_back(io::read_values(file, certificate));
       return graded(certificate, given, h);
     }
 

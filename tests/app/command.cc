@@ -1,7 +1,7 @@
 // The command as a user meets it: exit codes, messages on stderr, files.
 
 #include "command.h"
-#include "app/run_parts.h"
+#include "base/progress_line.h"
 #include "report/statics_summary.h"
 
 #include <nlohmann/json.hpp>
@@ -301,7 +301,7 @@ TEST(ProgressLine, is_printed_after_a_second_and_then_rarely)
 {
   testing::internal::CaptureStderr(); // a file, no terminal
   {
-    ProgressLine line(true);
+    plumbline::base::ProgressLine line(true);
     line.show("level 1 of 2", .25);
     std::this_thread::sleep_for(std::chrono::milliseconds(3500));
   }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "study/analysis.h"
 #include "study/sampling.h"
 
 #include <filesystem>
 
-namespace plumbline::app
+namespace plumbline::study
 {
   /// How samples of a scene are taken: by the analysis that it has or asks for.
   struct SampleTaker
@@ -18,12 +19,13 @@ namespace plumbline::app
         check;
     /// @param own  where the sample alone may keep files while it is taken; gone when it is there
     /// @throws InputError, NumericalError  as the analysis itself
-    std::function<std::vector<study::SampleCase>(const scene::Scene &sample,
-                                                 const std::filesystem::path &own)>
+    std::function<std::vector<SampleCase>(const scene::Scene &sample,
+                                          const std::filesystem::path &own)>
         take;
   };
-  SampleTaker sample_taker(const scene::Scene &scene);
+
+  SampleTaker sample_taker(const scene::Scene &scene, const Methods &available);
 
   /// Its samples are growths.
   bool is_growth(const scene::Scene &scene);
-} // namespace plumbline::app
+} // namespace plumbline::study

@@ -1,7 +1,6 @@
-#include "sample_taker.h"
+#include "study/sample_taker.h"
 
 #include "base/error.h"
-#include "methods.h"
 #include "study/crack_analysis.h"
 #include "study/dispersion.h"
 #include "study/growth_analysis.h"
@@ -11,38 +10,38 @@
 #include "study/stationary_crack.h"
 #include "study/transient.h"
 
-namespace plumbline::app
+namespace plumbline::study
 {
   namespace fs = std::filesystem;
   using scene::SampledAnalysis;
-  using study::SampleCase;
 
   namespace
   {
     /// @param ranks  that run a sample together
-    SampleTaker study_taker(const study::Analysis &analysis,
+    SampleTaker study_taker(const Analysis &analysis, const Methods &available,
                             const base::Communicator &ranks = base::Communicator::alone())
     {
-      return {[analysis](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
-              {
-                const method::Methods methods =
-                    analysis.choose_methods(scene, all_methods(), 0, n_jobs);
-                if (analysis.check)
-                  analysis.check(scene, methods, 0);
-              },
-              [analysis, ranks](const scene::Scene &sample, const fs::path &)
-              { return study::sample_study(analysis, sample, all_methods(), ranks); }};
+      return {
+          [analysis, available](const scene::Scene &scene, const fs::path &, unsigned int n_jobs)
+          {
+            const method::Methods methods = analysis.choose_methods(scene, available, 0, n_jobs);
+            if (analysis.check)
+              analysis.check(scene, methods, 0);
+          },
+          [analysis, available, ranks](const scene::Scene &sample, const fs::path &)
+          { return sample_study(analysis, sample, available, ranks); }};
     }
 
     /// Of an analysis that keeps checkpoints.
-    SampleTaker long_taker(study::Analysis (*analysis)(const study::Checkpoints &))
+    SampleTaker long_taker(Analysis (*analysis)(const Checkpoints &), const Methods &available)
     {
-      return {[analysis](const scene::Scene &scene, const fs::path &folder, unsigned int n_jobs)
-              { (void)analysis({folder}).choose_methods(scene, all_methods(), 0, n_jobs); },
-              [analysis](const scene::Scene &sample, const fs::path &own)
+      return {[analysis, available](const scene::Scene &scene, const fs::path &folder,
+                                    unsigned int n_jobs)
+              { (void)analysis({folder}).choose_methods(scene, available, 0, n_jobs); },
+              [analysis, available](const scene::Scene &sample, const fs::path &own)
               {
                 fs::create_directories(own);
-                return study::sample_study(analysis({own}), sample, all_methods());
+                return sample_study(analysis({own}), sample, available);
               }};
     }
 
@@ -78,24 +77,24 @@ namespace plumbline::app
     return scene.sampling.analysis == SampledAnalysis::of_scene && scene.fracture.is_there();
   }
 
-  SampleTaker sample_taker(const scene::Scene &scene)
+  SampleTaker sample_taker(const scene::Scene &scene, const Methods &available)
   {
     if (scene.sampling.analysis == SampledAnalysis::stability)
-      return study_taker(study::stability_analysis());
+      return study_taker(stability_analysis(), available);
     if (scene.sampling.analysis == SampledAnalysis::dispersion)
-      return study_taker(study::dispersion_analysis());
+      return study_taker(dispersion_analysis(), available);
     if (is_growth(scene))
-      return clean(long_taker([](const study::Checkpoints &own)
-                              { return study::growth_analysis(own, {}); }));
+      return clean(
+          long_taker([](const Checkpoints &own) { return growth_analysis(own, {}); }, available));
     if (scene.crack.is_there())
       return clean(
-          long_taker([](const study::Checkpoints &own) { return study::crack_analysis(own); }));
+          long_taker([](const Checkpoints &own) { return crack_analysis(own); }, available));
     if (scene.strip.is_there())
-      return study_taker(study::strip_analysis());
+      return study_taker(strip_analysis(), available);
     if (scene.time.is_dynamic())
-      return study_taker(study::transient_analysis(all_methods(), {true, {}}));
-    study::StaticsOptions options;
+      return study_taker(transient_analysis(available, {true, {}}), available);
+    StaticsOptions options;
     options.has_fields = true;
-    return study_taker(study::statics_analysis(all_methods(), options), base::Communicator::all());
+    return study_taker(statics_analysis(available, options), available, base::Communicator::all());
   }
-} // namespace plumbline::app
+} // namespace plumbline::study

@@ -1,0 +1,171 @@
+#include "report/certificate_text.h"
+
+#include "base/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::report
+{
+  using study::Certificate;
+  using study::CertifiedValue;
+
+  namespace
+  {
+    std::string text(double value)
+    {
+      constexpr int n_digits = 4;
+      return base::to_text(value, n_digits);
+    }
+
+    /// For people rounded to a tenth of the bound's decade, which makes zeros of what is none.
+    Cell value_cell(double value, double bound)
+    {
+      constexpr int most = 17, fallback = 4;
+      Cell cell = number_cell(value);
+      if (!(bound > 0) || !std::isfinite(value))
+        return cell;
+      const double unit = std::pow(10., std::floor(std::log10(bound)) - 1),
+                   shown = std::round(value / unit) * unit + 0.; // no -0
+      const double digits =
+          shown == 0 ? fallback : std::floor(std::log10(std::abs(shown) / unit)) + 1;
+      cell.text = base::to_text(shown, static_cast<int>(std::clamp<double>(digits, 1, most)));
+      return cell;
+    }
+
+    std::vector<Column> columns_of(const Certificate &certificate)
+    {
+      const auto name = [&](const std::string &word, unsigned int c)
+      { return word + (certificate.n_components == 1 ? "" : std::to_string(c + 1)); };
+      std::vector<Column> columns = {"x", "y"};
+      if (certificate.points.front().x.size() == 3)
+        columns.emplace_back("z");
+      for (unsigned int c = 0; c < certificate.n_components; ++c)
+        columns.emplace_back(name("u", c));
+      columns.emplace_back("bound");
+      for (unsigned int c = 0; c < certificate.n_components; ++c)
+        columns.push_back(
+            {name("u", c) + " by " + certificate.meshfree.method, {name("other", c)}});
+      columns.push_back({"its bound", {"other_bound"}});
+      columns.emplace_back("difference");
+      columns.emplace_back("digits");
+      return columns;
+    }
+
+    std::vector<Cell> row_of(const CertifiedValue &one, std::size_t dimension)
+    {
+      std::vector<Cell> row;
+      for (const double x : one.x)
+        row.push_back(number_cell(x));
+      if (one.x.empty())
+      {
+        row.push_back(text_cell("mean"));
+        row.insert(row.end(), dimension - 1, empty_cell());
+      }
+      for (const double u : one.value)
+        row.push_back(value_cell(u, one.bound));
+      row.push_back(error_cell(one.bound));
+      for (const double u : one.other)
+        row.push_back(value_cell(u, one.other_bound));
+      row.push_back(error_cell(one.other_bound));
+      row.push_back(error_cell(one.difference()));
+      row.push_back(count_cell(one.digits));
+      return row;
+    }
+
+    std::string way_text(const study::CertifiedWay &way, const std::string &what)
+    {
+      std::string sizes;
+      for (const double h : way.h)
+        sizes += (sizes.empty() ? "" : ", ") + text(h);
+      return way.method + " (" + what + "): h = " + sizes +
+             (std::isfinite(way.order) ? "; order " + text(way.order) : "") +
+             (std::isfinite(way.error) ? "; largest true error " + text(way.error) : "");
+    }
+  } // namespace
+
+  Table certificate_table(const Certificate &certificate, bool has_mean)
+  {
+    Table table{"", columns_of(certificate), {}};
+    const std::size_t dimension = certificate.points.front().x.size();
+    for (const CertifiedValue &one : certificate.points)
+      table.rows.push_back(row_of(one, dimension));
+    if (has_mean && certificate.mean)
+      table.rows.push_back(row_of(*certificate.mean, dimension));
+    return table;
+  }
+
+  Table rules_table(const study::Certificate &certificate)
+  {
+    constexpr int n_digits = 4;
+    Table table{"", {"rule"}, {}};
+    if (certificate.rules.empty())
+      return table;
+    for (const double h : certificate.rules.front().h)
+      table.columns.emplace_back("rms error, h = " + base::to_text(h, n_digits));
+    table.columns.emplace_back("order");
+    table.columns.emplace_back("digits");
+    for (const study::CertifiedRule &rule : certificate.rules)
+    {
+      std::vector<Cell> row = {text_cell(rule.method)};
+      for (const double error : rule.root_mean_square)
+        row.push_back(error_cell(error));
+      row.push_back(std::isfinite(rule.order) ? rate_cell(rule.order) : empty_cell());
+      row.push_back(count_cell(rule.digits.back()));
+      table.rows.push_back(std::move(row));
+    }
+    return table;
+  }
+
+  std::string n_values(std::size_t n)
+  {
+    return std::to_string(n) + (n == 1 ? " value" : " values");
+  }
+
+  namespace
+  {
+    std::string answer_of(const Certificate &certificate)
+    {
+      return n_values(certificate.points.size()) + " certified to at least " +
+             std::to_string(certificate.least_digits()) + " digits by " +
+             certificate.galerkin.method + ", confirmed to " +
+             std::to_string(certificate.confirmed_digits()) + " by " + certificate.meshfree.method +
+             (certificate.mean
+                  ? "; the mean to " + std::to_string(certificate.mean->digits) + " digits"
+                  : "");
+    }
+
+    /// For a terminal: as many values as there is room for.
+    std::string shown(const Certificate &certificate)
+    {
+      constexpr std::size_t room = 16;
+      std::string text;
+      for (const std::string &line : first_lines(
+               lines_of(to_text(certificate_table(certificate, true))), room, "in certificate.md"))
+        text += line + '\n';
+      return text;
+    }
+  } // namespace
+
+  std::string certificate_markdown(const Certificate &certificate)
+  {
+    return "# Certificate: " + certificate.name + "\n\n" + certificate.purpose + "\n\n" +
+           answer_of(certificate) + ". Bounds hold in practice and are not proven; digits are " +
+           "relative to " + text(certificate.size) + ", the root mean square of the values.\n\n- " +
+           way_text(certificate.galerkin, "certified") + "\n- " +
+           way_text(certificate.meshfree, "confirms") + "\n- horizon " + text(certificate.horizon) +
+           "\n- plumbline " + certificate.version + "\n- SHA-256 of the scene's text: `" +
+           certificate.hash + "`\n\n" + to_markdown(certificate_table(certificate, true)) +
+           "\n## Meshfree rules at these points\n\n" + to_markdown(rules_table(certificate)) +
+           "\n## Scene\n\n```\n" + certificate.scene_text + "```\n";
+  }
+
+  std::string certificate_summary(const Certificate &certificate, const std::string &file)
+  {
+    return heading(certificate.name, certificate.purpose) + '\n' +
+           way_text(certificate.galerkin, "certified") + '\n' +
+           way_text(certificate.meshfree, "confirms") + "\n\n" + shown(certificate) +
+           "\ncertificate: " + file + "\n\n" + wrapped(answer_of(certificate), summary_columns, 2) +
+           '\n';
+  }
+} // namespace plumbline::report
