@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "geometry/cracks.h"
 #include "geometry/search.h"
+#include "problem/builder.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -221,28 +222,61 @@ namespace plumbline::check
     }
   } // namespace
 
-  BodyCheck check_body(const GivenBody &body, const std::string &key,
-                       const physics::Kernel<2> &kernel, double spacing,
-                       meshfree::GivenWeights &weights, std::vector<double> &uncut_areas)
+  namespace
   {
-    geometry::NodeCells<2> named; // places and ids are all that messages need
-    named.nodes = weights.cells->nodes;
-    named.n_free = weights.cells->n_free;
+    /// Checks what lies near free surfaces and cracks, and leaves the families of whole balls.
+    BodyCheck check_body(const GivenBody &body, const std::string &key,
+                         const physics::Kernel<2> &kernel, double spacing,
+                         meshfree::GivenWeights &weights, std::vector<double> &uncut_areas)
+    {
+      geometry::NodeCells<2> named; // places and ids are all that messages need
+      named.nodes = weights.cells->nodes;
+      named.n_free = weights.cells->n_free;
+      for (const std::size_t k : weights.cells->source)
+        named.source.push_back(static_cast<std::size_t>(weights.nodes.id[k]));
+      try
+      {
+        refuse_far_cracks(body.cracks, named.nodes, kernel.horizon());
+        geometry::check_cracks(body.cracks, named, {}, kernel.horizon());
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(key + ": " + error.what());
+      }
+      const double tolerance =
+          std::max(geometry::on_crack * kernel.horizon(), 2 * weights.nodes.rounding);
+      const geometry::VisibleBody visible(body.parts, body.cracks, tolerance);
+      return meshfree::check_body(weights, uncut_areas, visible, kernel, spacing);
+    }
+  } // namespace
+
+  problem::Problem<2> problem_on(const geometry::Mesh &mesh,
+                                 const std::shared_ptr<const geometry::NodeCells<2>> &cells,
+                                 const physics::Kernel<2> &kernel, double h)
+  {
+    problem::MeshDomain on;
+    on.mesh = std::make_shared<const geometry::Mesh>(mesh);
+    on.cells = cells;
+    on.reach = kernel.horizon();
+    return problem::ProblemBuilder(std::move(on), kernel, h).build();
+  }
+
+  void find_defects(const GivenBody &body, const std::string &key, meshfree::BondValues values,
+                    meshfree::GivenWeights weights, std::vector<double> uncut_areas,
+                    problem::Problem<2> problem, const std::vector<std::string> &meant,
+                    Findings &found)
+  {
     for (const std::size_t k : weights.cells->source)
-      named.source.push_back(static_cast<std::size_t>(weights.nodes.id[k]));
-    try
-    {
-      refuse_far_cracks(body.cracks, named.nodes, kernel.horizon());
-      geometry::check_cracks(body.cracks, named, {}, kernel.horizon());
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(key + ": " + error.what());
-    }
-    const double tolerance =
-        std::max(geometry::on_crack * kernel.horizon(), 2 * weights.nodes.rounding);
-    const geometry::VisibleBody visible(body.parts, body.cracks, tolerance);
-    return meshfree::check_body(weights, uncut_areas, visible, kernel, spacing);
+      weights.volumes.push_back(weights.nodes.volume[k]);
+    to_weights(values, problem.kernel, weights);
+    if (body.is_there())
+      found.body =
+          check_body(body, key, problem.kernel, found.level.node_size, weights, uncut_areas);
+    for (const std::size_t k : weights.cells->source)
+      found.ids.push_back(weights.nodes.id[k]);
+    problem.on_mesh()->cells = weights.cells; // of whole balls
+    static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
+        std::move(weights), problem, uncut_areas, found.level.node_size, meant);
   }
 
   std::vector<std::string> body_complaints(const Findings &found, const Requirements &required)

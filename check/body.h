@@ -2,6 +2,7 @@
 
 #include "check/findings.h"
 #include "check/requirements.h"
+#include "meshfree/check/bond_values.h"
 #include "report/tables.h"
 
 namespace plumbline::check
@@ -20,12 +21,23 @@ namespace plumbline::check
   /// @param key   that has it, for the message
   bool is_free_boundary(const std::string &word, const std::string &key);
 
-  /// Checks what lies near free surfaces and cracks, and leaves the families of whole balls.
-  /// @param key  that gives the cracks, for messages
+  /// What of a problem the check of weights needs: nodes on a mesh.
+  problem::Problem<2> problem_on(const geometry::Mesh &mesh,
+                                 const std::shared_ptr<const geometry::NodeCells<2>> &cells,
+                                 const physics::Kernel<2> &kernel, double h);
+
+  /// What is found of weights whose families are read: near free surfaces and cracks, and then of
+  /// all families of whole balls.
+  /// @param key      that gives the cracks, for messages
+  /// @param weights  without volumes; values as the other code has them
+  /// @param problem  with the mesh and the kernel
+  /// @param found    has its level
+  /// @param meant    rules that the weights may be of
   /// @throws InputError  as meshfree::check_body and geometry::check_cracks
-  meshfree::BodyCheck check_body(const GivenBody &body, const std::string &key,
-                                 const physics::Kernel<2> &kernel, double spacing,
-                                 meshfree::GivenWeights &weights, std::vector<double> &uncut_areas);
+  void find_defects(const GivenBody &body, const std::string &key, meshfree::BondValues values,
+                    meshfree::GivenWeights weights, std::vector<double> uncut_areas,
+                    problem::Problem<2> problem, const std::vector<std::string> &meant,
+                    Findings &found);
 
   // What is said of a body, as of all weights in requirements.h.
   std::vector<std::string> body_complaints(const Findings &found, const Requirements &required);

@@ -196,18 +196,6 @@ namespace plumbline::check
       return parts;
     }
 
-    /// What of a problem the check of weights needs: nodes on a mesh.
-    problem::Problem<2> problem_on(const geometry::Mesh &mesh,
-                                   const std::shared_ptr<const geometry::NodeCells<2>> &cells,
-                                   const physics::Kernel<2> &kernel, double h)
-    {
-      problem::MeshDomain on;
-      on.mesh = std::make_shared<const geometry::Mesh>(mesh);
-      on.cells = cells;
-      on.reach = kernel.horizon();
-      return problem::ProblemBuilder(std::move(on), kernel, h).build();
-    }
-
     /// How the files were read, and with which horizon.
     std::vector<std::string> all_notes(const Findings &found, const std::string &assumed,
                                        const Input &input)
@@ -276,17 +264,9 @@ namespace plumbline::check
                          found.level.level.h)
             : case_of(0).problem;
     weights.given = read_given_families(input.bonds_file, weights.nodes, *weights.cells);
-    for (const std::size_t i : weights.cells->source)
-      weights.volumes.push_back(weights.nodes.volume[i]);
-    to_weights(to_bond_values(input.bonds_are, "--bonds-are"), problem.kernel, weights);
-    if (body.is_there())
-      found.body = check_body(body, "--crack", problem.kernel, found.level.node_size, weights,
-                              cells.uncut_areas);
-    for (const std::size_t i : weights.cells->source)
-      found.ids.push_back(weights.nodes.id[i]);
-    problem.on_mesh()->cells = weights.cells; // the interior first
-    static_cast<meshfree::Findings &>(found) = find_defects(
-        std::move(weights), problem, cells.uncut_areas, found.level.node_size, scene.methods.names);
+    find_defects(body, "--crack", to_bond_values(input.bonds_are, "--bonds-are"),
+                 std::move(weights), cells.uncut_areas, std::move(problem), scene.methods.names,
+                 found);
     found.notes = all_notes(found, assumed_horizon(scene, input, found.level.level), input);
     if (body.is_there())
       return found; // without a constraint all around, or with cracks, solutions are other ones

@@ -4,7 +4,6 @@
 #include "geometry/mesh_input.h"
 #include "meshfree/check/bond_values.h"
 #include "meshfree/check/row_families.h"
-#include "problem/builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,22 +94,10 @@ namespace plumbline::python
       weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
       weights.given = meshfree::families_of_rows(rows, nodes, *weights.cells, {"bonds", "index"});
       weights.given.weight_rounding = rounding;
-      for (const std::size_t k : weights.cells->source)
-        weights.volumes.push_back(nodes.volume[k]);
       weights.nodes = std::move(nodes);
-      meshfree::to_weights(values, kernel, weights);
-      if (body.is_there())
-        found.body = check::check_body(body, "cracks", kernel, found.level.node_size, weights,
-                                       cells.uncut_areas);
-      for (const std::size_t k : weights.cells->source)
-        found.ids.push_back(weights.nodes.id[k]);
-      problem::MeshDomain on;
-      on.mesh = std::make_shared<const geometry::Mesh>(mesh);
-      on.cells = weights.cells;
-      on.reach = kernel.horizon();
-      const problem::Problem<2> problem = problem::ProblemBuilder(std::move(on), kernel, h).build();
-      static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
-          std::move(weights), problem, cells.uncut_areas, found.level.node_size, meant);
+      problem::Problem<2> problem = check::problem_on(mesh, weights.cells, kernel, h);
+      check::find_defects(body, "cracks", values, std::move(weights), cells.uncut_areas,
+                          std::move(problem), meant, found);
       return found;
     }
 

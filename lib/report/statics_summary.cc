@@ -68,21 +68,6 @@ namespace plumbline::report
         print(out, "  ... and " + std::to_string(rows.size() - n) + " more in the report");
     }
 
-    void print_expectations(std::ostream &out, const StudyResults &results)
-    {
-      constexpr std::size_t most = 2;
-      std::size_t n_missed = 0;
-      for (const study::Expectation &one : results.expectations)
-        if (!one.holds && n_missed++ < most)
-          print(out, "not as expected: " + one.subject + ": expected " + one.expected + ", found " +
-                         one.found);
-      if (n_missed > most)
-        print(out, "not as expected: " + std::to_string(n_missed - most) + " more in the report");
-      if (!results.expectations.empty())
-        print(out, "expectations: " + std::to_string(results.expectations.size() - n_missed) +
-                       " of " + std::to_string(results.expectations.size()) + " hold");
-    }
-
     /// Methods by what became of them, each in the worst class that it belongs to.
     void print_answer(std::ostream &out, const StudyResults &results)
     {
@@ -191,8 +176,26 @@ namespace plumbline::report
     }
   } // namespace
 
+  std::vector<std::string> expectation_lines(const StudyResults &results, std::size_t most)
+  {
+    std::vector<std::string> lines;
+    std::size_t n_missed = 0;
+    for (const study::Expectation &one : results.expectations)
+      if (!one.holds && ++n_missed <= most)
+        lines.push_back("not as expected: " + one.subject + ": expected " + one.expected +
+                        ", found " + one.found);
+    if (n_missed > most)
+      lines.push_back("not as expected: " + std::to_string(n_missed - most) +
+                      " more in the report");
+    if (!results.expectations.empty())
+      lines.push_back("expectations: " + std::to_string(results.expectations.size() - n_missed) +
+                      " of " + std::to_string(results.expectations.size()) + " hold");
+    return lines;
+  }
+
   std::string statics_summary(const StudyResults &results, const std::filesystem::path &folder)
   {
+    constexpr std::size_t most_missed = 2;
     std::ostringstream out;
     print(out, heading(results.scene_name, results.purpose));
     bool has_constants = false;
@@ -207,7 +210,8 @@ namespace plumbline::report
     print(out, results.decisive_error + " (compared with " + study::target_words(results) + ")");
     print_trends(out, results);
     out << '\n';
-    print_expectations(out, results);
+    for (const std::string &line : expectation_lines(results, most_missed))
+      print(out, line);
     out << "report: " << (folder / "report.html").string() << "\n\n";
     print_answer(out, results);
     print_cheapest(out, results);

@@ -1,3 +1,4 @@
+#include "report/statics_summary.h"
 #include "report/text_table.h"
 #include "report/view.h"
 
@@ -86,23 +87,6 @@ namespace plumbline::report
       return text;
     }
 
-    Lines missed(const StudyResults &results, std::size_t most)
-    {
-      Lines lines;
-      std::size_t n_missed = 0;
-      for (const study::Expectation &one : results.expectations)
-        if (!one.holds && ++n_missed <= most)
-          lines.push_back("not as expected: " + one.subject + ": expected " + one.expected +
-                          ", found " + one.found);
-      if (n_missed > most)
-        lines.push_back("not as expected: " + std::to_string(n_missed - most) +
-                        " more in the report");
-      if (!results.expectations.empty())
-        lines.push_back("expectations: " + std::to_string(results.expectations.size() - n_missed) +
-                        " of " + std::to_string(results.expectations.size()) + " hold");
-      return lines;
-    }
-
     std::string joined(const Lines &lines)
     {
       std::string text;
@@ -171,7 +155,7 @@ namespace plumbline::report
       end.push_back(fitted("left out by the budget: " + results.left_out.front() +
                                (n > 1 ? " and " + std::to_string(n - 1) + " more" : ""),
                            n_columns));
-    for (const std::string &line : missed(results, most_missed))
+    for (const std::string &line : expectation_lines(results, most_missed))
       end.push_back(fitted(line, n_columns));
     end.push_back("report: " + files);
     if (const std::string answer = answer_of(view); !answer.empty())

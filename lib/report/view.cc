@@ -3,6 +3,7 @@
 #include "io/results_json.h"
 #include "report/damage_maps.h"
 #include "report/equation.h"
+#include "report/report_parts.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -315,26 +316,6 @@ namespace plumbline::report
     constexpr std::array classes = {"converges", "undecided", "stalls"}; // of ratings, on pages
     constexpr std::array signs = {"✓", "?", "✗"};
 
-    Data expectations(const StudyResults &results)
-    {
-      Data met = Data::array(), missed = Data::array();
-      for (const study::Expectation &one : results.expectations)
-        (one.holds ? met : missed)
-            .push_back({{"subject", one.subject},
-                        {"expected", one.expected},
-                        {"found", one.found},
-                        {"holds", one.holds}});
-      if (met.empty() && missed.empty())
-        return {};
-      const auto list = [](const Data &rows) {
-        return rows.empty() ? Data() : Data{{"rows", rows}};
-      };
-      return {{"n", met.size() + missed.size()},
-              {"n_hold", met.size()},
-              {"met", list(met)},
-              {"missed", list(missed)}};
-    }
-
     Data page_verdicts(const View &view)
     {
       if (view.verdicts.rows.empty())
@@ -375,7 +356,7 @@ namespace plumbline::report
       data["scene_text"] = results.scene_text;
       data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};
       data["verdicts"] = page_verdicts(view);
-      data["expectations"] = expectations(results);
+      data["expectations"] = page::expectations(results);
       data["warnings"] = results.warnings;
       data["left_out"] = results.left_out;
       data["provenance"] = Data::array();
