@@ -151,16 +151,14 @@ namespace plumbline::app
       return check && !holds ? 1 : 0;
     }
 
-    /// What an interrupted command has left.
-    study::StudyResults earlier_results(const AnalysisRow &row, const io::RecordJournal &journal)
+    /// What an interrupted command has left. All ranks have read it before the first one writes,
+    /// and go on from the same.
+    study::StudyResults earlier_results(const AnalysisRow &row, io::RecordJournal &journal)
     {
-      study::StudyResults earlier;
-      if (row.goes_on)
-        earlier = journal.earlier();
-      // all ranks have read before the first one writes, and go on from the same
-      const auto n_found = static_cast<double>(earlier.records.size());
-      if (row.ranks.largest(n_found) != -row.ranks.largest(-n_found))
-        earlier = {};
+      const auto n_found = static_cast<double>(journal.earlier().records.size());
+      if (!row.goes_on || row.ranks.largest(n_found) != -row.ranks.largest(-n_found))
+        journal.forget();
+      study::StudyResults earlier = journal.earlier();
       earlier.provenance = provenance();
       earlier.provenance.insert(row.provenance.begin(), row.provenance.end());
       return earlier;

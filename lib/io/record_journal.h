@@ -20,6 +20,7 @@ namespace plumbline::io
 
     /// What was finished before; an incomplete last line is left out.
     const study::StudyResults &earlier() const { return earlier_; }
+    void forget() { earlier_ = {}; } ///< that: it is made again
 
     /// Records and the statements that came with them, as RunControl::on_made gives them: a kill
     /// leaves all of them or none. The first call replaces what was there by the same.

@@ -119,6 +119,10 @@ namespace plumbline::io
       next.append(made(n));
       EXPECT_EQ(to_json(results_in(folder.path())), to_json(after(n, whole())));
     }
+    RecordJournal again(file, "scene");
+    again.forget();
+    again.append(after(2, whole()));
+    EXPECT_EQ(to_json(results_in(folder.path())), to_json(after(2, whole())));
     RecordJournal other(file, "another scene");
     EXPECT_TRUE(other.earlier().records.empty());
     other.append(after(1, whole())); // in its place
