@@ -252,7 +252,7 @@ namespace plumbline::app
                     {
                       journal.append(made);
                       std::error_code code;
-                      if (row.has_checkpoint)
+                      if (row.has_checkpoint && !made.records.empty())
                         fs::remove(checkpoints.file(), code);
                       write_all_fields(made.records);
                     });
