@@ -256,10 +256,13 @@ namespace plumbline::scene
     require(std::find(study.norms.begin(), study.norms.end(), norm) != study.norms.end(),
             decisive + " must be 'norm | target' with a norm of Study/norms (add it there) and a "
                        "target of exact, local, reference, own finest level");
-    const bool is_truncation = quantity(norm) == Quantity::truncation;
-    require(!is_truncation || target == Target::exact || target == Target::local,
-            decisive +
-                ": truncation errors are of a known solution; use the target exact or local");
+    const bool is_of_equations =
+        quantity(norm) == Quantity::truncation || quantity(norm) == Quantity::bound;
+    require(
+        !is_of_equations || target == Target::exact || target == Target::local,
+        decisive +
+            ": truncation errors and bounds made of them are of a known solution; use the target "
+            "exact or local");
     require(target != Target::exact || !scene.problem.solutions.empty(),
             decisive + " needs Problem/solution, which is empty; use the target reference, or, if "
                        "there is no reference, own finest level");

@@ -77,7 +77,8 @@ namespace plumbline::scene
     nodal,
     averages,
     field,
-    truncation ///< no solution: what the exact one leaves of the equations
+    truncation, ///< no solution: what the exact one leaves of the equations
+    bound       ///< no solution: what follows from that and the norm of the inverse
   };
 
   enum class Norm
@@ -89,7 +90,9 @@ namespace plumbline::scene
     field_linf,
     field_l2,
     truncation_linf,
-    truncation_l2
+    truncation_l2,
+    bound_linf,
+    bound_l2
   };
   constexpr Quantity quantity(Norm norm)
   {
@@ -156,11 +159,11 @@ namespace plumbline::base
       std::array{"m", "delta", "delta-m", "horizon", "variable"};
   template <>
   inline constexpr auto words<scene::Quantity> =
-      std::array{"nodal", "averages", "field", "truncation"};
+      std::array{"nodal", "averages", "field", "truncation", "bound"};
   template <>
   inline constexpr auto words<scene::Norm> =
-      std::array{"nodal Linf", "nodal L2", "averages Linf",   "averages L2",
-                 "field Linf", "field L2", "truncation Linf", "truncation L2"};
+      std::array{"nodal Linf", "nodal L2",        "averages Linf", "averages L2", "field Linf",
+                 "field L2",   "truncation Linf", "truncation L2", "bound Linf",  "bound L2"};
   template <>
   inline constexpr auto words<scene::Target> =
       std::array{"exact", "local", "reference", "own finest level"};

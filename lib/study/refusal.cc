@@ -57,7 +57,8 @@ namespace plumbline::study
                         const Methods &available)
     {
       const scene::DecisiveError &decisive = scene.study.decisive_error;
-      if (scene::quantity(decisive.norm) == scene::Quantity::truncation &&
+      const scene::Quantity decided = scene::quantity(decisive.norm);
+      if ((decided == scene::Quantity::truncation || decided == scene::Quantity::bound) &&
           method.family() != method::MethodFamily::meshfree)
         return "Study/decisive error = " + decisive.text() +
                " is defined for meshfree rules, whose equations hold at nodes; Galerkin equations "

@@ -52,6 +52,9 @@ namespace plumbline::study
 
   double round_off_of(const Record &record, const std::string &error)
   {
+    if (is_bound(error))
+      return value_of(record, "inverse norm", 0) *
+             in_norm_of(record, error, "truncation round-off", "");
     return in_norm_of(record, error, "round-off", "truncation round-off");
   }
 

@@ -337,8 +337,9 @@ namespace plumbline::study
 
   double norm_of_one(const std::string &error, double area)
   {
-    for (const scene::Norm norm : {scene::Norm::nodal_l2, scene::Norm::averages_l2,
-                                   scene::Norm::field_l2, scene::Norm::truncation_l2})
+    for (const scene::Norm norm :
+         {scene::Norm::nodal_l2, scene::Norm::averages_l2, scene::Norm::field_l2,
+          scene::Norm::truncation_l2, scene::Norm::bound_l2})
       if (error.find(base::word(norm) + " |") != std::string::npos)
         return std::sqrt(area);
     return 1;
@@ -347,6 +348,11 @@ namespace plumbline::study
   bool is_truncation(const std::string &error)
   {
     return error.rfind("truncation ", 0) == 0;
+  }
+
+  bool is_bound(const std::string &error)
+  {
+    return error.rfind("bound ", 0) == 0;
   }
 
   bool is_against(const std::string &error, scene::Target target)

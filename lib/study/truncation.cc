@@ -1,5 +1,6 @@
 #include "study/truncation.h"
 
+#include "analysis/stability.h"
 #include "base/error.h"
 #include "method/discretisation.h"
 #include "method/discretisation_in_space.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace plumbline::study
 {
@@ -24,70 +26,112 @@ namespace plumbline::study
     {
       return method.discretise_in_space(problem);
     }
-  } // namespace
 
-  template <int dim>
-  Truncation truncation(const Method &method, const problem::Problem<dim> &problem,
-                        const problem::Field<dim> &u)
-  {
-    constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
-    const auto discretisation = discretise(method, problem);
-    const auto *able = dynamic_cast<const method::HasLinearEquations<dim> *>(discretisation.get());
-    if (able == nullptr)
-      throw InputError(
-          "Study/norms: truncation errors need the sparse matrix of a rule, and bodies with "
-          "a free boundary are solved without one; write nodal or averages norms");
-    const method::LinearEquations<dim> of = able->equations(problem);
-    const unsigned int n_components = of.n_components;
-    std::vector<double> values;
-    for (std::size_t k = 0; k < of.n_free; ++k)
-      for (unsigned int c = 0; c < n_components; ++c)
-        values.push_back(u(of.nodes[k], c));
-    values.insert(values.end(), of.constraint.begin(), of.constraint.end());
-    Truncation found;
-    double cancelled = 0; // the largest sum of |a_ij u_j|
-    for (std::size_t row = 0; row < of.rows.n_rows(); ++row)
+    /// With the constraint of the problem at constrained nodes.
+    /// @pre method is meshfree: its equations hold at nodes
+    template <int dim>
+    method::LinearEquations<dim> equations(const Method &method,
+                                           const problem::Problem<dim> &problem)
     {
-      double sum = 0, terms = 0;
-      for (std::size_t k = of.rows.start[row]; k < of.rows.start[row + 1]; ++k)
-      {
-        const double term = of.rows.value[k] * values[of.rows.column[k]];
-        sum += term;
-        terms += std::abs(term);
-      }
-      const double tau = sum - of.load[row];
-      found.largest = std::max(found.largest, std::abs(tau));
-      found.l2 += of.volumes[row / n_components] * tau * tau;
-      found.load = std::max(found.load, std::abs(of.load[row]));
-      cancelled = std::max(cancelled, terms);
+      const auto discretisation = discretise(method, problem);
+      const auto *able =
+          dynamic_cast<const method::HasLinearEquations<dim> *>(discretisation.get());
+      if (able == nullptr)
+        throw InputError(
+            "Study/norms: truncation errors need the sparse matrix of a rule, and bodies with "
+            "a free boundary are solved without one; write nodal or averages norms");
+      return able->equations(problem);
     }
-    found.l2 = std::sqrt(found.l2);
-    if (!std::isfinite(found.l2)) // the largest loses NaN
-      throw NumericalError(
-          "the truncation error is not a finite number: u, the load or the constraint is "
-          "not, at a node");
-    found.round_off = safety * epsilon * (cancelled + found.load);
-    if (!(found.load > found.round_off))
-      found.load = cancelled;
-    return found;
-  }
+
+    /// By how much a field fails the equations of a rule.
+    struct Truncation
+    {
+      double largest = 0; ///< max|τ| [unit of the load]
+      double l2 = 0;      ///< √(Σ volume |τ|²)
+      /// max|b|, what largest is relative to; where b is round-off, max_i Σ|a_ij u_j|
+      double load = 0;
+      double round_off = 0; ///< up to which size |τ| is round-off
+    };
+
+    template <int dim>
+    Truncation truncation(const method::LinearEquations<dim> &of, const problem::Field<dim> &u)
+    {
+      constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
+      const unsigned int n_components = of.n_components;
+      std::vector<double> values;
+      for (std::size_t k = 0; k < of.n_free; ++k)
+        for (unsigned int c = 0; c < n_components; ++c)
+          values.push_back(u(of.nodes[k], c));
+      values.insert(values.end(), of.constraint.begin(), of.constraint.end());
+      Truncation found;
+      double cancelled = 0; // the largest sum of |a_ij u_j|
+      for (std::size_t row = 0; row < of.rows.n_rows(); ++row)
+      {
+        double sum = 0, terms = 0;
+        for (std::size_t k = of.rows.start[row]; k < of.rows.start[row + 1]; ++k)
+        {
+          const double term = of.rows.value[k] * values[of.rows.column[k]];
+          sum += term;
+          terms += std::abs(term);
+        }
+        const double tau = sum - of.load[row];
+        found.largest = std::max(found.largest, std::abs(tau));
+        found.l2 += of.volumes[row / n_components] * tau * tau;
+        found.load = std::max(found.load, std::abs(of.load[row]));
+        cancelled = std::max(cancelled, terms);
+      }
+      found.l2 = std::sqrt(found.l2);
+      if (!std::isfinite(found.l2)) // the largest loses NaN
+        throw NumericalError(
+            "the truncation error is not a finite number: u, the load or the constraint is "
+            "not, at a node");
+      found.round_off = safety * epsilon * (cancelled + found.load);
+      if (!(found.load > found.round_off))
+        found.load = cancelled;
+      return found;
+    }
+  } // namespace
 
   template <int dim>
   void enter_truncation(const Method &method, const std::vector<scene::Norm> &norms,
                         const problem::Problem<dim> &problem, Record &record)
   {
-    const auto is_meant = [](scene::Norm norm)
-    { return scene::quantity(norm) == scene::Quantity::truncation; };
+    using scene::Quantity;
+    const auto has = [&](Quantity quantity)
+    {
+      return std::any_of(norms.begin(), norms.end(),
+                         [&](scene::Norm norm) { return scene::quantity(norm) == quantity; });
+    };
     if (method.family() != method::MethodFamily::meshfree ||
-        std::none_of(norms.begin(), norms.end(), is_meant))
+        !(has(Quantity::truncation) || has(Quantity::bound)))
       return;
+    const auto of = equations(method, problem);
+    analysis::Stability stability;
+    if (has(Quantity::bound))
+    {
+      stability = analysis::measure(method::discrete_operator(of));
+      record.set("smallest eigenvalue", stability.smallest, "b / u");
+      if (stability.inverse_norm > 0)
+      {
+        record.set("inverse norm", stability.inverse_norm, "u / b");
+        record.set("inverse norm is exact", stability.is_norm_exact ? 1 : 0);
+      }
+    }
     const auto enter = [&](scene::Target target, const problem::Field<dim> &u)
     {
-      const Truncation found = truncation(method, problem, u);
+      const Truncation found = truncation(of, u);
+      const auto value = [&](scene::Norm norm) -> std::optional<double>
+      {
+        const double tau = scene::is_largest(norm) ? found.largest : found.l2;
+        if (scene::quantity(norm) == Quantity::truncation)
+          return tau;
+        if (scene::quantity(norm) != Quantity::bound || !(stability.inverse_norm > 0))
+          return {};
+        return scene::is_largest(norm) ? stability.inverse_norm * tau : tau / stability.smallest;
+      };
       for (const scene::Norm norm : norms)
-        if (is_meant(norm))
-          record.set(scene::DecisiveError{norm, target}.text(),
-                     scene::is_largest(norm) ? found.largest : found.l2);
+        if (const auto found_value = value(norm))
+          record.set(scene::DecisiveError{norm, target}.text(), *found_value);
       record.set("largest load", found.load);
       record.set("truncation round-off", found.round_off);
     };
@@ -98,8 +142,6 @@ namespace plumbline::study
   }
 
 #define INSTANTIATE(dim)                                                                           \
-  template Truncation truncation(const Method &, const problem::Problem<dim> &,                    \
-                                 const problem::Field<dim> &);                                     \
   template void enter_truncation(const Method &, const std::vector<scene::Norm> &,                 \
                                  const problem::Problem<dim> &, Record &);
   INSTANTIATE(2)

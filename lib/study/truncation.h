@@ -9,30 +9,19 @@ namespace plumbline::study
 {
   using method::Method;
 
-  /// The truncation error of a rule: by how much a field u fails its equations,
-  /// τ_i = Σ_j a_ij u_j - b_i at each free node i. A e = τ relates it to the nodal error e, so that
-  /// max|e| <= ‖A⁻¹‖∞ max|τ|: consistency and stability (Yang & Yin, theorem 4.1).
-  struct Truncation
-  {
-    double largest = 0; ///< max|τ| [unit of the load]
-    double l2 = 0;      ///< √(Σ volume |τ|²)
-    double load =
-        0; ///< max|b|, what largest is relative to; where b is round-off, max_i Σ|a_ij u_j|
-    double round_off = 0; ///< up to which size |τ| is round-off
-  };
-
-  /// Of the method's equations, which are made anew; instantiated for dim = 2 and 3.
-  /// @param u  with the problem's constraint at constrained nodes
-  /// @pre method is meshfree: its equations hold at nodes
-  /// @throws InputError      the equations have no sparse matrix (bodies with a free boundary), or
-  ///                         it does not fit into memory
-  template <int dim>
-  Truncation truncation(const Method &method, const problem::Problem<dim> &problem,
-                        const problem::Field<dim> &u);
-
-  /// Enter into the record of a meshfree rule those of the norms that are of truncation, against
-  /// the solutions that are known, and what they are relative to. Nothing of Galerkin methods,
-  /// whose equations hold on average.
+  /// The truncation error of a rule is by how much a field u fails its equations,
+  /// τ_i = Σ_j a_ij u_j - b_i at each free node i, and relates to the nodal error e by A e = τ
+  /// (Yang & Yin, theorem 4.1). Consistency and stability bound e: max|e| <= ‖A⁻¹‖∞ max|τ|, and in
+  /// L2 ‖e‖ <= ‖τ‖ / λ, λ the smallest eigenvalue of A's symmetric part.
+  ///
+  /// Enter into the record of a meshfree rule those of the norms that are of truncation or of
+  /// these bounds, against the solutions that are known, and what they are made of: "largest
+  /// load", "truncation round-off", and for bounds "inverse norm" (where "inverse norm is exact" is
+  /// 0 a lower bound near it, so that "bound Linf" is an estimate) and "smallest eigenvalue". No
+  /// bound where A is not positive definite, or its equations are not solved. Nothing of Galerkin
+  /// methods, whose equations hold on average. The rule's equations are made anew for it.
+  /// @throws InputError  the equations have no sparse matrix (bodies with a free boundary), or
+  ///                     it does not fit into memory
   template <int dim>
   void enter_truncation(const Method &method, const std::vector<scene::Norm> &norms,
                         const problem::Problem<dim> &problem, Record &record);

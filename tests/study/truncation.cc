@@ -110,6 +110,56 @@ TEST(Truncation, and_the_inverse_give_the_nodal_error)
   }
 }
 
+// Yang & Yin, (4.5): the error is at most the norm of the inverse times the truncation error. Where
+// that is the same at all nodes, as of a quadratic, it is as large: ‖A⁻¹‖ of an M-matrix is the
+// largest value of A⁻¹ 1. In L2 the bound is with the smallest eigenvalue, and the lowest mode of
+// the square alone has 8/pi^2 = .81 of the norm of 1.
+TEST(Truncation, times_the_norm_of_the_inverse_bounds_the_error)
+{
+  const Settings norms = {{"Study/norms", "nodal Linf, nodal L2, bound Linf, bound L2"},
+                          {"Study/decisive error", "bound Linf | exact"},
+                          {"Methods/names", "FA, IPA-AC, IPA-AC-R2"},
+                          {"Study/h", "0.1, 0.05, 0.025"}};
+  Settings quadratic = norms;
+  quadratic.push_back({"Problem/solution", "x^2 + y^2"});
+  for (const auto &[settings, is_quadratic] : {std::pair(norms, false), {quadratic, true}})
+    for (const Record &record : results_of(settings).records)
+    {
+      const double bound = record["bound Linf | exact"], error = record["nodal Linf | exact"],
+                   l2_bound = record["bound L2 | exact"], l2 = record["nodal L2 | exact"];
+      EXPECT_EQ(record["inverse norm is exact"], 1); // weights >= 0
+      EXPECT_FALSE(record.has("truncation Linf | exact"));
+      if (is_quadratic && record.key.method == "IPA-AC-R2")
+      {
+        EXPECT_LT(bound, round_off_of(record, "bound Linf | exact"));
+        EXPECT_LT(l2_bound, round_off_of(record, "bound L2 | exact"));
+        continue;
+      }
+      EXPECT_GT(bound, error * (1 - 1e-8)) << record.key.label();
+      EXPECT_GT(l2_bound, l2 * (1 - 1e-8)) << record.key.label();
+      if (is_quadratic)
+      {
+        EXPECT_NEAR(bound, error, 1e-7 * error) << record.key.label();
+        EXPECT_GT(l2, .81 * l2_bound) << record.key.label();
+      }
+    }
+}
+
+// Ibid., theorem 4.1: at a fixed horizon the bound of IPA-AC falls as the error does.
+TEST(Truncation, bounds_of_ipa_ac_are_of_order_two_at_a_fixed_horizon)
+{
+  const StudyResults results = results_of({{"Methods/names", "IPA-AC"},
+                                           {"Study/regime", "m"},
+                                           {"Study/horizon", "0.4"},
+                                           {"Study/h", "0.2, 0.1, 0.05, 0.025"},
+                                           {"Study/norms", "nodal Linf, bound Linf"},
+                                           {"Study/decisive error", "bound Linf | exact"}});
+  EXPECT_EQ(trend_of(results, "IPA-AC", "bound Linf | exact").outcome, Outcome::converges);
+  EXPECT_NEAR(trend_of(results, "IPA-AC", "bound Linf | exact").rate, 2, .3);
+  for (const Record &record : results.records)
+    EXPECT_LT(record["bound Linf | exact"], 4 * record["nodal Linf | exact"]) << record.key.h;
+}
+
 // The load of a linear field is round-off, and so is its truncation error.
 TEST(Truncation, of_fields_without_a_load_is_round_off)
 {
@@ -143,7 +193,7 @@ TEST(Truncation, is_found_in_space_too)
        {"Study/regime", "delta"},
        {"Study/m", "2"},
        {"Study/h", "1/4, 1/8"},
-       {"Study/norms", "nodal Linf, averages L2, truncation Linf, truncation L2"}}));
+       {"Study/norms", "nodal Linf, averages L2, truncation Linf, truncation L2, bound Linf"}}));
   // FA's second moment over the ball's, which is 1: ∫ c (1 - r/δ) ξ_1² = 4π c δ^5 / 90
   double moment = 0;
   for (int k = -2; k <= 2; ++k)
@@ -157,6 +207,8 @@ TEST(Truncation, is_found_in_space_too)
     if (record.key.method == "FA")
     {
       EXPECT_NEAR(record["truncation Linf | exact"], 1 - moment, 1e-9);
+      EXPECT_NEAR(record["bound Linf | exact"], record["nodal Linf | exact"],
+                  1e-7 * record["nodal Linf | exact"]); // it is the same at all nodes
     }
     if (record.key.method == "IPA-AC-R2")
     {
@@ -174,5 +226,13 @@ TEST(Truncation, is_of_known_solutions_and_equations_at_nodes)
   expect({{"Methods/names", "FA"},
           {"Reference/method", "Q2"},
           {"Study/decisive error", "truncation L2 | reference"}},
+         "use the target exact or local");
+  const Settings::value_type bounds = {"Study/norms", "bound Linf"};
+  expect({{"Methods/names", "FA, Q1"}, bounds, {"Study/decisive error", "bound Linf | exact"}},
+         "is defined for meshfree rules");
+  expect({{"Methods/names", "FA"},
+          {"Reference/method", "Q2"},
+          bounds,
+          {"Study/decisive error", "bound Linf | reference"}},
          "use the target exact or local");
 }

@@ -89,7 +89,9 @@ namespace plumbline::scene
         "weights: sqrt(area * mean e^2)), averages Linf, averages L2 (cell averages of the "
         "solution, weighted by area), field Linf, field L2 (of the function), truncation Linf, "
         "truncation L2 (of meshfree rules: the residual of their equations for the exact or "
-        "local solution, in units of the load).");
+        "local solution, in units of the load), bound Linf, bound L2 (of meshfree rules: the "
+        "truncation error times the norm of the inverse operator, or over its smallest "
+        "eigenvalue; stability and consistency bound the nodal error by it).");
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
