@@ -200,6 +200,7 @@ namespace plumbline::report
         data["model"] = model(results);
         data["diagnostics"] = table(diagnostics_table(results));
         data["tip_forces"] = table(tip_force_table(results));
+        data["bounds"] = table(bound_table(results));
         data["provenance"] = provenance(results);
         data["scene_text"] = results.scene_text;
         return data;

@@ -2,6 +2,7 @@
 
 #include "report/text_table.h"
 #include "study/solution_record.h"
+#include "study/trend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -300,6 +301,27 @@ namespace plumbline::report
     return table;
   }
 
+  Table bound_table(const study::StudyResults &results)
+  {
+    Table table;
+    table.columns = {"method", "case",   "series", "h [length]",  "horizon [length]",
+                     "error",  "‖A⁻¹‖∞", "bound",  "nodal error", "error / bound"};
+    for (const study::Record &run : results.records)
+      for (const auto &[name, bound] : study::errors_of(run))
+        if (study::is_bound(name))
+        {
+          const std::string nodal = "nodal" + name.substr(name.find(' '));
+          const bool is_known = run.has(nodal);
+          table.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
+                                text_cell(run.key.series), number_cell(run.key.h),
+                                number_cell(run.key.horizon), text_cell(error_words(nodal)),
+                                number_cell(run["inverse norm"]), error_cell(bound),
+                                is_known ? error_cell(run[nodal]) : empty_cell(),
+                                is_known ? number_cell(run[nodal] / bound) : empty_cell()});
+        }
+    return table;
+  }
+
   Table saving_table(const study::StudyResults &results)
   {
     Table table;
@@ -350,5 +372,7 @@ namespace plumbline::report
       write_table(estimate_table(estimates), folder / "estimates");
     if (const Table tips = tip_force_table(results); !tips.rows.empty())
       write_table(tips, folder / "tip_forces");
+    if (const Table bounds = bound_table(results); !bounds.rows.empty())
+      write_table(bounds, folder / "bounds");
   }
 } // namespace plumbline::report

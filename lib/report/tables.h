@@ -37,6 +37,10 @@ namespace plumbline::report
   /// The net force of surface terms about each tip of a crack, of each run that has them.
   Table tip_force_table(const study::StudyResults &results);
 
+  /// Bounds on nodal errors by consistency and stability, beside the errors; see
+  /// study/truncation.h.
+  Table bound_table(const study::StudyResults &results);
+
   /// What the smallest model saved, where the full one was solved too.
   Table saving_table(const study::StudyResults &results);
 

@@ -162,6 +162,24 @@ namespace plumbline::report
     EXPECT_EQ(table.rows[0][4].text, "averages L2 against reference");
   }
 
+  TEST(ReportTables, SetBoundsBesideTheErrorsThatTheyBound)
+  {
+    study::StudyResults results = fixture::results();
+    EXPECT_TRUE(bound_table(results).rows.empty());
+    study::Record &run = results.records.front();
+    run.set("inverse norm", .15);
+    run.set("bound Linf | exact", 4e-3);
+    run.set("nodal Linf | exact", 1e-3);
+    run.set("bound L2 | local", 4e-3); // without its error
+    const Table table = bound_table(results);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[0][5].text, "nodal L2 against local");
+    EXPECT_EQ(table.rows[0][9].text, "–");
+    EXPECT_EQ(table.rows[1][5].text, "nodal L∞ against exact");
+    EXPECT_EQ(table.rows[1][6].text, "0.15");
+    EXPECT_EQ(table.rows[1][9].text, "0.25");
+  }
+
   TEST(ReportTables, LeaveAFitThatWasNotMadeEmpty)
   {
     study::StudyResults results = fixture::results();
