@@ -31,7 +31,7 @@ namespace plumbline::reference
   /// How they were made, exactly.
   struct FaceRuleUse
   {
-    /// Pairs of faces in double, in long double, with 113 and with 237 bits.
+    /// Pairs of faces in double, in long double, with 124 and with 237 bits.
     std::array<std::size_t, 4> n_pairs{};
     /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
     /// diagonal entry.

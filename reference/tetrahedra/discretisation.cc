@@ -182,7 +182,7 @@ namespace plumbline::reference
             "entries exact to round-off by integrals along lines for " +
             std::to_string(n_double + n_long + n_quad + n_octuple) + " pairs of faces, " +
             std::to_string(n_long) + " of them in long double and " +
-            std::to_string(n_quad + n_octuple) + " with 113 bits or more, each to " +
+            std::to_string(n_quad + n_octuple) + " with 124 bits or more, each to " +
             base::to_text(use.error, 1) +
             " of the diagonal; quadrature over pairs of faces would change " +
             (is_of_cubes_ ? "them" : "a sample of them") + " by " + base::to_text(change, 1));

@@ -1,22 +1,20 @@
 #include "reference/tetrahedra/exact_pairs.h"
 
 #include "reference/tetrahedra/pair_form.h"
-
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include "reference/tetrahedra/two_part_number.h"
 
 #include <cstdint>
+#include <unordered_map>
 
 namespace plumbline::reference
 {
   namespace
   {
     namespace multiprecision = boost::multiprecision;
-    template <unsigned int bits>
-    using Binary =
-        multiprecision::number<multiprecision::cpp_bin_float<bits, multiprecision::digit_base_2>,
+    using Quad = TwoPartNumber<long double>;
+    using Octuple =
+        multiprecision::number<multiprecision::cpp_bin_float<237, multiprecision::digit_base_2>,
                                multiprecision::et_off>;
-    using Quad = Binary<113>;
-    using Octuple = Binary<237>;
 
     /// Heights of an edge over a plane that differ by less are equal; coordinates of some horizons
     /// are rounded by that much.
@@ -36,6 +34,15 @@ namespace plumbline::reference
         result.x[k] = {Real(x[0]), Real(x[1]), Real(x[2])};
       }
       result.names = face.names();
+      return result;
+    }
+
+    template <class Real>
+    FormFace<Real> form_face(const NumberedFace &face)
+    {
+      FormFace<Real> result = form_face<Real>(*face.face);
+      result.edges = face.edges;
+      result.number = face.number;
       return result;
     }
 
@@ -71,6 +78,52 @@ namespace plumbline::reference
       PairForm<Real, NothingShared> form(parts, gap(f, g) > compact_from, nothing);
       return form(form_face<Real>(f), form_face<Real>(g), parallel);
     }
+
+    /// The few values that pairs share in long double, by numbers.
+    class LongerValues
+    {
+    public:
+      void clear()
+      {
+        of_edges_.clear();
+        of_vertices_.clear();
+      }
+      void set_face(unsigned int face) { face_ = face; } ///< of second_vertex()
+
+      template <class Make>
+      Sum<long double> edges(unsigned int e, unsigned int f, bool is_compact, const Make &make)
+      {
+        return take(of_edges_, e, f, is_compact, make);
+      }
+      template <class Make>
+      Sum<long double> first_vertex(unsigned int v, unsigned int face, bool is_compact,
+                                    const Make &make)
+      {
+        return take(of_vertices_, v, face, is_compact, make);
+      }
+      template <class Make>
+      Sum<long double> second_vertex(unsigned int v, bool is_compact, const Make &make)
+      {
+        return take(of_vertices_, v, face_, is_compact, make);
+      }
+
+    private:
+      using Values = std::unordered_map<std::uint64_t, Sum<long double>>;
+
+      template <class Make>
+      static Sum<long double> take(Values &values, unsigned int first, unsigned int second,
+                                   bool is_compact, const Make &make)
+      {
+        constexpr unsigned int half = 32;
+        const std::uint64_t key = (static_cast<std::uint64_t>(first) << half) +
+                                  2 * static_cast<std::uint64_t>(second) + (is_compact ? 1 : 0);
+        const auto found = values.find(key);
+        return found != values.end() ? found->second : values[key] = make();
+      }
+
+      Values of_edges_, of_vertices_;
+      unsigned int face_ = 0;
+    };
 
     template <class Real>
     std::vector<PotentialPart<Real>> make_parts(const std::vector<PotentialTerms> &terms, int order)
@@ -160,6 +213,7 @@ namespace plumbline::reference
 
     Places edge_rows, edge_columns, vertex_rows, vertices, faces;
     std::vector<Slot> of_edges, of_vertices, of_face;
+    LongerValues longer;
     const NumberedFace *face = nullptr; ///< that of_face is of
   };
 
@@ -191,6 +245,7 @@ namespace plumbline::reference
     }
     t.of_edges.assign(t.edge_rows.size() * t.edge_columns.size(), {});
     t.of_vertices.assign(t.vertex_rows.size() * t.faces.size(), {});
+    t.longer.clear();
     t.face = nullptr;
   }
 
@@ -231,24 +286,23 @@ namespace plumbline::reference
     {
       tables.face = &f;
       tables.of_face.assign(tables.vertices.size(), {});
+      tables.longer.set_face(f.number);
     }
-    FormFace<double> x = form_face<double>(*f.face), y = form_face<double>(*g.face);
-    x.edges = f.edges;
-    y.edges = g.edges;
-    x.number = f.number;
-    y.number = g.number;
-    PairForm<double, Shared::Tables> form(parts_->usual, distance > compact_from, tables);
-    const Sum<double> sum = form(x, y, rounding);
+    const bool is_compact = distance > compact_from;
+    PairForm<double, Shared::Tables> form(parts_->usual, is_compact, tables);
+    const Sum<double> sum = form(form_face<double>(f), form_face<double>(g), rounding);
     if (const double error = bound(sum); error <= tolerance_)
       return {sum.value, error, 0};
-    return refined(*f.face, *g.face);
+    PairForm<long double, LongerValues> longer(parts_->longer, is_compact, tables.longer);
+    const Sum<long double> refined =
+        longer(form_face<long double>(f), form_face<long double>(g), rounding);
+    if (const double error = bound(refined); error <= tolerance_)
+      return {static_cast<double>(refined.value), error, 1};
+    return precise_enough(*f.face, *g.face);
   }
 
-  ExactPairs::Integral ExactPairs::refined(const PairFace &f, const PairFace &g) const
+  ExactPairs::Integral ExactPairs::precise_enough(const PairFace &f, const PairFace &g) const
   {
-    const Sum<long double> sum = integrate(parts_->longer, f, g);
-    if (const double error = bound(sum); error <= tolerance_)
-      return {static_cast<double>(sum.value), error, 1};
     const Sum<Quad> precise = integrate(parts_->quad, f, g);
     if (const double error = bound(precise); error <= tolerance_)
       return {static_cast<double>(precise.value), error, 2};
@@ -263,7 +317,10 @@ namespace plumbline::reference
     const Sum<double> sum = integrate(parts_->usual, f, g);
     if (const double error = bound(sum); error <= tolerance_)
       return {sum.value, error, 0};
-    return refined(f, g);
+    const Sum<long double> refined = integrate(parts_->longer, f, g);
+    if (const double error = bound(refined); error <= tolerance_)
+      return {static_cast<double>(refined.value), error, 1};
+    return precise_enough(f, g);
   }
 
   double ExactPairs::precise(const PairFace &f, const PairFace &g) const

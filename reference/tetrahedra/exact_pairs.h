@@ -17,7 +17,7 @@ namespace plumbline::reference
   /// ∬_{F×G} f(|x - y|) of a FacePotential f in closed form except for integrals along lines,
   /// which Gauss rules give to round-off: see PairForm. Each sum carries a bound of its round-off.
   /// Where that exceeds a tolerance, since edges are nearly parallel to the other plane, the same
-  /// is done in long double, and then with 113 and 237 bits. Exactly parallel edges and planes have
+  /// is done in long double, and then with 124 and 237 bits. Exactly parallel edges and planes have
   /// a form of their own.
   class ExactPairs
   {
@@ -31,7 +31,7 @@ namespace plumbline::reference
     {
       double value = 0;
       double error = 0;       ///< a bound in practice of its round-off
-      unsigned int level = 0; ///< 0: double, 1: long double, 2: 113 bits, 3: 237
+      unsigned int level = 0; ///< 0: double, 1: long double, 2: 124 bits, 3: 237
     };
 
     /// Values that pairs share for the same two edges, or a vertex and a face. Not thread safe.
@@ -62,7 +62,8 @@ namespace plumbline::reference
     double precise(const PairFace &f, const PairFace &g) const;
 
   private:
-    Integral refined(const PairFace &f, const PairFace &g) const; ///< with more digits
+    /// With more digits than long double has.
+    Integral precise_enough(const PairFace &f, const PairFace &g) const;
 
     struct Parts;
     std::unique_ptr<const Parts> parts_;
