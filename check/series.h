@@ -34,8 +34,8 @@ namespace plumbline::check
     std::string assumed;              ///< see assumed_horizon()
   };
 
-  /// @param references, throws  as of find()
-  /// @param on_level  told of each level, with the share of the work that is done
+  /// @param references  as of find(), whose errors it throws
+  /// @param on_level    told of each level, with the share of the work that is done
   Series find_series(const LevelFiles &files, const method::Methods &references,
                      const std::function<void(const std::string &, double)> &on_level);
 
