@@ -9,6 +9,7 @@
 #include "physics/kernel.h"
 #include "scene/capabilities.h"
 #include "scene/models/model.h"
+#include "scene/published_names.h"
 #include "scene/scene.h"
 #include "study/refusal.h"
 
@@ -61,11 +62,21 @@ namespace plumbline::app
       }
     }
 
+    /// Published names of a method.
+    std::string also_known_as(const std::string &method)
+    {
+      std::string text;
+      for (const std::string &name : scene::published_names_of(method))
+        text += (text.empty() ? "; also known as " : ", ") + name;
+      return text;
+    }
+
     void list_methods()
     {
       for (const auto &method : all_methods())
         std::cout << std::left << std::setw(16) << method->name() << std::setw(11)
-                  << base::word(method->family()) << method->help() << '\n';
+                  << base::word(method->family()) << method->help() << also_known_as(method->name())
+                  << '\n';
     }
 
     void list_kernels()

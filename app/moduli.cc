@@ -3,12 +3,14 @@
 #include "arguments.h"
 #include "base/choice.h"
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "io/results_json.h"
 #include "meshfree/rules/rules.h"
 #include "meshfree/rules/stiffness.h"
 #include "report/view.h"
 #include "scene/values.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -41,11 +43,15 @@ namespace plumbline::app
       std::istringstream list(names);
       for (std::string name; std::getline(list, name, ',');)
       {
-        for (const Rule &rule : available)
-          if (rule.name == name)
-            chosen.push_back(rule);
-        if (chosen.empty() || chosen.back().name != name)
+        auto found = std::find_if(available.begin(), available.end(),
+                                  [&](const Rule &rule) { return rule.name == name; });
+        if (found == available.end()) // no rule of the caller's own: other names of ours
+          found = std::find_if(available.begin(), available.end(),
+                               [ours = base::to_lower(scene::method_name(name))](const Rule &rule)
+                               { return base::to_lower(rule.name) == ours; });
+        if (found == available.end())
           throw InputError("--rules: '" + name + "' is not known; choose all or of " + known);
+        chosen.push_back(*found);
       }
       return chosen;
     }

@@ -4,10 +4,10 @@
 #include "base/similar_words.h"
 #include "base/text_file.h"
 #include "physics/expression.h"
+#include "scene/published_names.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <regex>
 #include <sstream>
 
@@ -83,9 +83,18 @@ namespace plumbline::scene
 
   std::string method_name(const std::string &given)
   {
-    static const std::map<std::string, std::string> ours = {{"hhb", "QWJ"}};
-    const auto found = ours.find(base::to_lower(given));
-    return found == ours.end() ? given : found->second;
+    for (const PublishedName &one : published_names())
+      if (base::to_lower(one.name) == base::to_lower(given))
+      {
+        if (one.ours.size() == 1)
+          return one.ours.front();
+        std::string ours;
+        for (const std::string &name : one.ours)
+          ours += (ours.empty() ? "" : ", ") + name;
+        throw InputError("method '" + given + "' is the published name of several rules (" +
+                         one.source + "); write one of " + ours + " ('plumbline list methods')");
+      }
+    return given;
   }
 
   std::vector<std::string> to_methods(const std::string &text)

@@ -341,7 +341,7 @@ TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)
 TEST(Command, lists_templates_and_descriptions_help_a_newcomer)
 {
   expect_found(run("list methods").out, "IPA-AC-R2");
-  expect_found(run("list methods").out, "also known as HHB");
+  expect_found(run("list methods").out, "also known as HHB, PA-HHB, PV-HHB\n");
   expect_found(run("list kernels").out, "bond-tensor");
   expect_found(run("list scenes").out, "scalar_delta_convergence.prm");
   expect_found(run("describe Study/m").out, "allowed");

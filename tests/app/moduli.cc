@@ -44,6 +44,10 @@ TEST(ModuliCommand, says_what_modulus_a_rule_has)
   EXPECT_NEAR(scalar(found[0], "shear across axes"), 79.5, .06);
   EXPECT_NEAR(scalar(found[1], "E"), 200, 1e-10);
   EXPECT_NEAR(scalar(found[1], "nu"), 1. / 3, 1e-12);
+  const Json published = records("--m 3 --E 200 --rules pa-hhb,FV"),
+             ours = records("--m 3 --E 200 --rules QWJ,FA");
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_EQ(scalar(published[i], "E"), scalar(ours[i], "E"));
 }
 
 TEST(ModuliCommand, knows_three_dimensions)

@@ -144,6 +144,26 @@ TEST(Scene, methods_may_be_called_by_their_other_names_wherever_they_are_named)
     }
 }
 
+TEST(Scene, published_names_stand_for_one_method_or_are_refused_with_the_choice)
+{
+  EXPECT_EQ(parse("subsection Methods\n set names = pa-hhb, PV-PDLAMMPS, PDLAMMPS, FV, "
+                  "GFDM\nend\n")
+                .methods.names,
+            (std::vector<std::string>{"QWJ", "LAMMPS", "LAMMPS", "FA", "GFD"}));
+  for (const std::string name : {"PV", "pa", "partial volume"})
+    try
+    {
+      parse("subsection Methods\n set names = FA, " + name + "\nend\n");
+      FAIL() << name;
+    }
+    catch (const InputError &error)
+    {
+      for (const std::string part :
+           {"Methods/names", name.c_str(), "several rules", "PA-AC, QWJ, LAMMPS"})
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
 TEST(Scene, overrides_win_over_the_file_and_json_is_read_too)
 {
   EXPECT_EQ(parse_scene("t.prm", with(""), {{"Study/m", "5"}}).study.series[0].name, "m = 5");

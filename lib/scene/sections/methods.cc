@@ -19,7 +19,9 @@ namespace plumbline::scene
     keys.add(
         "names", "", any_text(), [this](const std::string &text) { names = to_methods(text); },
         "Methods to compare, separated by ','; 'all' selects every method that supports the scene. "
-        "See 'plumbline list methods'. IPA-AC evaluates these quantities at the centroid of the "
+        "See 'plumbline list methods', which also gives published names (HHB, PA-HHB, PDLAMMPS, "
+        "...) that are accepted. PDDO and GMLS need scalar kernels. IPA-AC evaluates these "
+        "quantities at the centroid of the "
         "intersection of ball and cell, and all others at the node: for scalar kernels and bond "
         "tensors, the kernel with its direction; for double-well bonds in the plane, J, r and e, "
         "on a line J alone; for LPS (run, grow), the influence function and the direction of bond "
