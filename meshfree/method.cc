@@ -8,6 +8,7 @@
 #include "meshfree/lattice/crack_strip.h"
 #include "meshfree/rules/double_well_bonds.h"
 
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -31,6 +32,8 @@ namespace plumbline::meshfree
       bool is_in_all() const override { return is_in_all_; }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
+        if (rule_.is_scalar && problem.n_components > 1)
+          return no_tensors();
         if (problem.settings.solver.iteration != base::Iteration::cg || problem.lattice() ||
             problem.body())
           return {};
@@ -43,10 +46,18 @@ namespace plumbline::meshfree
                "; write automatic, gmres or bicgstab";
       }
 
+      std::string why_not_in_space(const Kernel<3> &kernel) const override
+      {
+        return rule_.is_scalar && kernel.n_components() > 1 ? no_tensors() : "";
+      }
+
       method::Capabilities can() const override
       {
         method::Capabilities can =
             problem::all_but({method::Capability::line, method::Capability::space});
+        if (rule_.is_scalar)
+          for (const auto capability : of_solids)
+            can.erase(capability);
         if (is_axis_rule(rule_.name))
           can.insert(method::Capability::line);
         if (rule_.in_space)
@@ -154,6 +165,18 @@ namespace plumbline::meshfree
       }
 
     private:
+      static constexpr std::array of_solids = {
+          method::Capability::damaged_dilatation, method::Capability::notch,
+          method::Capability::dilatation,         method::Capability::zero_dilatation,
+          method::Capability::mixed_dilatation,   method::Capability::double_well,
+          method::Capability::double_well_collar};
+
+      static std::string no_tensors()
+      {
+        return "it has weights for scalar kernels only: derivatives of vectors make no forces "
+               "along bonds; take GFD or IPA-AC-R2";
+      }
+
       template <int dim>
       using MakeQuadrature = std::function<NeighbourhoodQuadrature<dim>(const Kernel<dim> &)>;
 

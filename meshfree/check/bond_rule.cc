@@ -103,6 +103,10 @@ namespace plumbline::meshfree
     candidates.insert(candidates.end(), rules_on_request().begin(), rules_on_request().end());
     std::optional<Recognised> best;
     std::size_t best_score = 0;
+    const bool is_tensor = given.kernel.n_components() > 1;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                    [&](const Rule &rule) { return is_tensor && rule.is_scalar; }),
+                     candidates.end());
     for (const Rule &rule : candidates)
       try
       {

@@ -91,6 +91,7 @@ namespace plumbline::meshfree
     family.bonds.clear();
     family.fit = {};
     family.is_clipped = false;
+    family.own_area = cells_->area[node];
     search_.find(box_around(x, reach_), family.neighbours);
     const auto *const pieces = all_pieces(*cells_, pieces_);
     std::size_t n = 0;

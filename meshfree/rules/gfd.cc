@@ -1,26 +1,10 @@
 #include "meshfree/rules/moments.h"
 #include "meshfree/rules/rules.h"
 
-#include <cmath>
-
 namespace plumbline::meshfree
 {
   namespace
   {
-    /// Where the kernel vanishes, to rounding, no weight has an effect, and there is no bond.
-    template <int dim>
-    Bond<dim> bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
-    {
-      constexpr double rounding = 1e-9;
-      Exponents<dim> second{};
-      second[0] = 2;
-      const double scale = kernel.moment(second) / std::pow(kernel.horizon(), dim + 2);
-      Bond<dim> result = full_area_bond(kernel, candidate);
-      if (result.weight != 0 && std::abs(radial_value(kernel, result)) <= rounding * scale)
-        result.weight = 0;
-      return result;
-    }
-
     /// The coefficients c = w C of least Σ c²/(A g), g = exp(-(2r/δ)²): c = A g times a polynomial.
     template <int dim>
     MomentConditions<dim> conditions_of(const Kernel<dim> &kernel,
@@ -31,8 +15,8 @@ namespace plumbline::meshfree
       MomentConditions<dim> conditions = kernel_conditions<dim>(kernel, degree, select);
       conditions.scale = [kernel](const Bond<dim> &bond)
       {
-        const double s = 2 * bond.xi.norm() / kernel.horizon(), C = radial_value(kernel, bond);
-        return bond.area * std::exp(-s * s) / (C * C);
+        const double C = radial_value(kernel, bond);
+        return bond.area * gaussian(kernel, bond) / (C * C);
       };
       return conditions;
     }
@@ -44,7 +28,7 @@ namespace plumbline::meshfree
     // on a lattice symmetry meets the odd moments, which need not be independent there
     const auto even = conditions_of(kernel, even_exponents<dim>),
                all = conditions_of(kernel, exponents<dim>);
-    return {bond<dim>, [even, all](Family<dim> &family)
+    return {coefficient_bond<dim>, [even, all](Family<dim> &family)
             {
               for (Bond<dim> &bond : family.bonds)
                 bond.weight = 0;

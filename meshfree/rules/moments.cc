@@ -171,6 +171,19 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  Bond<dim> coefficient_bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
+  {
+    constexpr double rounding = 1e-9;
+    Exponents<dim> second{};
+    second[0] = 2;
+    const double scale = kernel.moment(second) / std::pow(kernel.horizon(), dim + 2);
+    Bond<dim> result = full_area_bond(kernel, candidate);
+    if (result.weight != 0 && std::abs(radial_value(kernel, result)) <= rounding * scale)
+      result.weight = 0;
+    return result;
+  }
+
+  template <int dim>
   void meet(const MomentConditions<dim> &conditions, Family<dim> &family)
   {
     const auto n = static_cast<Index>(family.bonds.size());
@@ -219,6 +232,7 @@ namespace plumbline::meshfree
   template std::vector<Exponents<dim>> even_exponents<dim>(int, int);                              \
   template MomentConditions<dim> kernel_conditions<dim>(                                           \
       const Kernel<dim> &, unsigned int, std::vector<Exponents<dim>> (*)(int, int));               \
+  template Bond<dim> coefficient_bond(const Kernel<dim> &, const Candidate<dim> &);                \
   template void meet(const MomentConditions<dim> &, Family<dim> &);
   PLUMBLINE_INSTANTIATE(2)
   PLUMBLINE_INSTANTIATE(3)

@@ -2,6 +2,7 @@
 
 #include "meshfree/rules/quadrature_rule.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace plumbline::meshfree
@@ -47,6 +48,21 @@ namespace plumbline::meshfree
   MomentConditions<dim> kernel_conditions(const Kernel<dim> &kernel, unsigned int degree,
                                           std::vector<Exponents<dim>> (*select)(int lowest,
                                                                                 int highest));
+
+  /// A full-area bond where the kernel does not vanish, to rounding; elsewhere no weight has an
+  /// effect, and there is no bond. For rules whose coefficients w C do not depend on the kernel's
+  /// profile.
+  template <int dim>
+  Bond<dim> coefficient_bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate);
+
+  /// exp(-(2r/δ)²), the Gaussian of generalised finite differences and of the peridynamic
+  /// differential operator.
+  template <int dim>
+  double gaussian(const Kernel<dim> &kernel, const Bond<dim> &bond)
+  {
+    const double s = 2 * bond.xi.norm() / kernel.horizon();
+    return std::exp(-s * s);
+  }
 
   /// Change the weights as little as possible, min Σ (w - w_before)²/ω, so that they meet the
   /// conditions, and say in family.fit how well they do. Rank-revealing: conditions that depend on

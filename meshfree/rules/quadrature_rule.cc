@@ -95,6 +95,7 @@ namespace plumbline::meshfree
     const double horizon = kernel.horizon();
     const int n = static_cast<int>(horizon / h + .5 + tie_tolerance);
     Family<dim> family;
+    family.own_area = dim == 2 ? h * h : h * h * h;
     std::array<int, dim> k;
     k.fill(-n);
     for (bool is_more = true; is_more; is_more = advance(k, n))
@@ -110,7 +111,7 @@ namespace plumbline::meshfree
                     candidate.ball = {Point<dim>(), horizon};
                     candidate.backend = backend;
                     candidate.xi = xi;
-                    candidate.area = dim == 2 ? h * h : h * h * h;
+                    candidate.area = family.own_area;
                     candidate.pieces = {&cell, 1};
                     add_bond(rule, kernel, candidate, family);
                   });

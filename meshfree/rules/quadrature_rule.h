@@ -30,6 +30,7 @@ namespace plumbline::meshfree
     std::vector<unsigned int> neighbours; ///< indices of nodes, ascending; empty on a lattice
     std::vector<Bond<dim>> bonds;
     Fit fit;
+    double own_area = 0;     ///< of the cell of the node itself [length^dim]
     bool is_clipped = false; ///< a negative kernel beyond the horizon counted as 0
   };
 

@@ -19,7 +19,7 @@ namespace plumbline::meshfree
     static const std::vector<Rule> table = {
         {"FA", "full area of cells whose node is in the ball", full_area<2>, full_area<3>},
         {"LAMMPS", "full area with a ramp inside the horizon", lammps<2>, lammps<3>},
-        {"QWJ", "full area with a ramp across the horizon, also known as HHB", qwj<2>, qwj<3>},
+        {"QWJ", "full area with a ramp across the horizon", qwj<2>, qwj<3>},
         {"PA-AC", "exact partial areas, kernel at the node", partial_area<2>, partial_area<3>},
         {"IPA-AC",
          "exact partial areas, kernel at the centroid of ball and cell ('plumbline describe "
@@ -42,6 +42,13 @@ namespace plumbline::meshfree
          "generalised finite differences: exact second moments, any kernel profile; not "
          "m-convergent",
          generalised_finite_differences<2>, generalised_finite_differences<3>},
+        {"PDDO",
+         "peridynamic differential operator, scalar kernels: exact second moments, but short waves "
+         "may be unstable; not m-convergent",
+         peridynamic_differential_operator<2>, peridynamic_differential_operator<3>, true},
+        {"GMLS",
+         "generalised moving least squares, scalar kernels: exact second moments; not m-convergent",
+         generalised_moving_least_squares<2>, generalised_moving_least_squares<3>, true},
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };

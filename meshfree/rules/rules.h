@@ -70,18 +70,37 @@ namespace plumbline::meshfree
   template <int dim>
   NeighbourhoodQuadrature<dim> generalised_finite_differences(const Kernel<dim> &kernel);
 
+  /// The peridynamic differential operator of degree 2: derivatives of the local limit by fitted
+  /// values (see fitted_derivatives), ω = A exp(-(2r/δ)²). Generalised finite differences fit
+  /// differences u_j - u instead, and have no condition on the sum of all coefficients. By this
+  /// condition coefficients near the node have the wrong sign from m = 2.2 or so, and short waves
+  /// may have eigenvalues of 0 or less, though second moments are exact. Scalar kernels only.
+  /// Infeasible, a NumericalError, as above.
+  /// Source: Madenci, Barut & Futch 2016, doi:10.1016/j.cma.2016.02.028.
+  /// @throws InputError  a bond tensor
+  template <int dim>
+  NeighbourhoodQuadrature<dim> peridynamic_differential_operator(const Kernel<dim> &kernel);
+
+  /// Generalised moving least squares of degree 2: the same with ω = (1 - r/δ)^4, without areas.
+  /// No bond at r = δ.
+  /// Source: Mirzaei, Schaback & Dehghan 2012, doi:10.1093/imanum/drr030.
+  /// @throws InputError  a bond tensor
+  template <int dim>
+  NeighbourhoodQuadrature<dim> generalised_moving_least_squares(const Kernel<dim> &kernel);
+
   /// A row of the table of rules.
   struct Rule
   {
     std::string name, help;
     std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> in_plane;
     std::function<NeighbourhoodQuadrature<3>(const Kernel<3> &)> in_space = {}; ///< empty: none
+    bool is_scalar = false; ///< it has no weights for tensors
   };
 
   /// All rules; a new one is one source file and one row here.
   const std::vector<Rule> &rules();
 
-  /// Rules that `all` does not include: not m-convergent (GFD), or counterexamples.
+  /// Rules that `all` does not include: not m-convergent (GFD, PDDO, GMLS), or counterexamples.
   const std::vector<Rule> &rules_on_request();
 
   /// The rule of a name, in any case.
