@@ -78,10 +78,7 @@ namespace plumbline::meshfree
 
   std::vector<Family<2>> rule_families(const std::string &name, const GivenBonds &given)
   {
-    for (const Rule &rule : rules())
-      if (rule.name == name)
-        return families_of(rule, given);
-    throw InputError("'" + name + "' is no rule");
+    return families_of(find_rule(name, "rule"), given);
   }
 
   bool Recognised::is_full_area() const

@@ -1,6 +1,7 @@
 // When a rule counts as recognised, and when moments name the one bond that is wrong.
 #include "given_bonds.h"
 
+#include "base/error.h"
 #include "meshfree/check/bond_pairs.h"
 #include "meshfree/check/node_moments.h"
 
@@ -32,6 +33,22 @@ TEST(Recognition, takes_nine_of_ten_weights)
       EXPECT_EQ(rule->rule, "PA-AC");
     }
   }
+}
+
+TEST(Recognition, knows_rules_that_all_leaves_out_and_skips_those_without_tensors)
+{
+  for (const std::string name : {"GFD", "PDDO", "GMLS"})
+  {
+    const Weights weights = weights_of(name, nodes_for(3, .2, "constant"));
+    const auto rule = recognise(weights.given());
+    ASSERT_TRUE(rule) << name;
+    EXPECT_EQ(rule->rule, name);
+  }
+  const Weights solid = weights_of("GFD", nodes_for(3, .2, "bond-tensor"));
+  const auto rule = recognise(solid.given());
+  ASSERT_TRUE(rule);
+  EXPECT_EQ(rule->rule, "GFD");
+  EXPECT_THROW(weights_of("PDDO", nodes_for(3, .2, "bond-tensor")), InputError);
 }
 
 TEST(Recognition, finds_the_common_factor_by_weights_that_rounding_leaves_alone)

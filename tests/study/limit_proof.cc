@@ -1,5 +1,6 @@
 #include "method/limit_proof.h"
 
+#include "base/error.h"
 #include "meshfree/method.h"
 #include "reference/method.h"
 #include "study/conclusions.h"
@@ -79,6 +80,8 @@ TEST(LimitProof, tells_right_rules_from_wrong_ones_for_every_model)
   EXPECT_EQ(proof(scalar, "OPT").answer, Answer::incompatible);
   EXPECT_EQ(proof(scalar, "GFD").answer, Answer::compatible);
   EXPECT_EQ(proof(tensor, "GFD").answer, Answer::compatible);
+  EXPECT_EQ(proof(scalar, "GMLS").answer, Answer::compatible);
+  EXPECT_THROW(proof(scalar, "PDDO"), NumericalError); // right moments, but no positive operator
   EXPECT_EQ(proof(tensor, "OPT").answer, Answer::compatible);
   EXPECT_EQ(proof(state, "OPT").answer, Answer::compatible);
 }
