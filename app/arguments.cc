@@ -126,6 +126,22 @@ namespace plumbline::app
       return base::did_you_mean(argument.substr(0, argument.find('=')), known);
     }
 
+    /// What the value of an option must be, from "--threads = -1".
+    std::string wanted(const std::string &given, const CLI::App &app)
+    {
+      const std::vector<CLI::App *> parsed = app.get_subcommands();
+      if (parsed.empty())
+        return "";
+      const CLI::Option *option =
+          parsed.back()->get_option_no_throw(given.substr(0, given.find(' ')));
+      if (option == nullptr)
+        return "";
+      const std::string type = option->get_type_name();
+      return type.rfind("UINT", 0) == 0    ? "; give a whole number, 0 or greater"
+             : type.rfind("FLOAT", 0) == 0 ? "; give a number such as 0.5 or 1e-3"
+                                           : "";
+    }
+
     std::string explain_missing_command(const CLI::App &app)
     {
       std::string all;
@@ -145,9 +161,11 @@ namespace plumbline::app
         if (hints.empty())
           hints = hint(extra, app);
       }
-      return "the argument '" + all +
-             "' is not known; 'plumbline --help' lists the commands, 'plumbline COMMAND --help' "
-             "what they take" +
+      const std::vector<CLI::App *> parsed = app.get_subcommands();
+      return "the argument '" + all + "' is not known; " +
+             (parsed.empty()
+                  ? "'plumbline --help' lists the commands"
+                  : "'plumbline " + parsed.back()->get_name() + " --help' lists the arguments") +
              hints;
     }
   } // namespace
@@ -162,7 +180,10 @@ namespace plumbline::app
     };
     const auto is = [&](const auto *kind)
     { return dynamic_cast<decltype(kind)>(&error) != nullptr; };
-    const std::string help = "; 'plumbline COMMAND --help' tells all";
+    const auto parsed = app.get_subcommands();
+    const std::string help = "; 'plumbline " +
+                             (parsed.empty() ? "COMMAND" : parsed.back()->get_name()) +
+                             " --help' lists the arguments";
     if (is(static_cast<const CLI::ExtrasError *>(nullptr)))
       return explain_extras(app);
     if (is(static_cast<const CLI::RequiredError *>(nullptr)))
@@ -170,7 +191,8 @@ namespace plumbline::app
                  ? said.substr(0, said.find(' ')) + " is missing" + help
                  : explain_missing_command(app);
     if (is(static_cast<const CLI::ConversionError *>(nullptr)))
-      return "the value of " + behind(": ") + " is not of the right kind" + help;
+      return "the value of " + behind(": ") + " is not of the right kind" +
+             wanted(behind(": "), app) + help;
     const std::string out_of_range = " not in range ";
     if (const std::size_t at = said.find(out_of_range);
         is(static_cast<const CLI::ValidationError *>(nullptr)) && at != std::string::npos)

@@ -4,6 +4,7 @@
 #include "base/choice.h"
 #include "base/error.h"
 #include "base/similar_words.h"
+#include "base/number_text.h"
 #include "io/results_json.h"
 #include "meshfree/rules/rules.h"
 #include "meshfree/rules/stiffness.h"
@@ -50,7 +51,7 @@ namespace plumbline::app
                                [ours = base::to_lower(scene::method_name(name))](const Rule &rule)
                                { return base::to_lower(rule.name) == ours; });
         if (found == available.end())
-          throw InputError("--rules: '" + name + "' is not known; choose all or of " + known);
+          throw InputError("--rules: '" + name + "' is not known; choose all or some of " + known);
         chosen.push_back(*found);
       }
       return chosen;
@@ -62,7 +63,7 @@ namespace plumbline::app
           given.empty() ? std::vector<double>{2, 3, 4, 5} : to_numbers(ratios_option, given);
       for (const double m : ratios)
         if (!(m >= 1) || m > 50)
-          throw InputError(std::string(ratios_option) + ": horizon / h = " + std::to_string(m) +
+          throw InputError(std::string(ratios_option) + ": horizon / h = " + base::to_text(m, 6) +
                            " is not between 1, where a node has its first neighbours, and 50");
       return ratios;
     }
@@ -151,7 +152,9 @@ namespace plumbline::app
 
   ElasticState elastic_state(const std::string &word)
   {
-    const auto state = base::from_word<ElasticState>(word);
+    auto state = base::from_word<ElasticState>(word);
+    if (!state)
+      state = base::from_word<ElasticState>("plane " + word); // as in Material/plane
     if (!state)
       throw InputError("--state: '" + word +
                        "' is not known; choose 'plane stress', 'plane strain' or 3D");
@@ -161,12 +164,12 @@ namespace plumbline::app
   study::StudyResults moduli_of_rules(const ModuliOptions &options)
   {
     if (!(options.E > 0) || !std::isfinite(options.E))
-      throw InputError("--E: Young's modulus is " + std::to_string(options.E) +
+      throw InputError("--E: Young's modulus is " + base::to_text(options.E, 6) +
                        "; give a number above 0");
     const ElasticState state = elastic_state(options.state);
     study::StudyResults results;
     results.analysis = "moduli";
-    results.scene_name = "moduli of " + options.kernel + ", " + options.state;
+    results.scene_name = "moduli of " + options.kernel + ", " + base::word(state);
     results.purpose = "Elastic constants of meshfree rules on lattices";
     for (const Rule &rule : chosen_rules(options.rules, options.own_rules))
       for (const double m : ratios_of(options.ratios))

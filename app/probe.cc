@@ -88,7 +88,7 @@ namespace plumbline::app
     const auto kind = base::from_word<ForceKind>(options.forces_are);
     if (!kind)
       throw InputError("--forces-are = '" + options.forces_are +
-                       "' is not known; choose of 'forces', 'densities'");
+                       "' is not known; choose one of 'forces', 'densities'");
     end_at_interrupts();
     try
     {

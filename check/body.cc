@@ -184,7 +184,7 @@ namespace plumbline::check
     const auto boundary = base::from_word<scene::Boundary>(word);
     if (!boundary || *boundary == scene::Boundary::periodic)
       throw InputError(key + " = '" + word +
-                       "' is not known; choose of 'constrained' (u is prescribed around the "
+                       "' is not known; choose one of 'constrained' (u is prescribed around the "
                        "domain) and 'free' (the boundary of the domain is a free surface)");
     return *boundary == scene::Boundary::free;
   }

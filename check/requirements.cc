@@ -138,7 +138,7 @@ namespace plumbline::check
         }
         else
           throw InputError("--require '" + word +
-                           "' is not known; choose of ac, consistent, moments=TOL, symmetric, "
+                           "' is not known; choose one of ac, consistent, moments=TOL, symmetric, "
                            "m-matrix");
     }
     if (words.empty())

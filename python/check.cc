@@ -1,4 +1,5 @@
 #include "arrays.h"
+#include "base/number_text.h"
 #include "bindings.h"
 #include "check/body.h"
 #include "geometry/mesh_input.h"
@@ -85,7 +86,7 @@ namespace plumbline::python
           geometry::lattice_mesh(domain, h, is_free ? 0 : kernel.horizon(), false);
       if (is_free)
         body.parts = geometry::convex_parts(domain);
-      meshfree::check_places(nodes, mesh, "h = " + std::to_string(h));
+      meshfree::check_places(nodes, mesh, "h = " + base::to_text(h, 6));
       meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, boundary_is_data && !is_free);
       check::Findings found;
       found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};

@@ -135,7 +135,8 @@ Kernel(type, horizon, *, diffusion=None, bulk_modulus=None, constant=None, ...)
 type          a name, see kernels()
 horizon       > 0 [length]
 diffusion     D of scalar kernels: L tends to -D Laplace as the horizon tends to 0; default 1
-bulk_modulus  of tensor kernels: lambda = mu = 3/5 of it, plane strain [force/length^2]; default 1
+bulk_modulus  of tensor kernels: lambda = mu = 3/5 of it, plane strain [force/length^2]; default 1.
+              For Young's modulus E give 5/8 E in plane stress, 2/3 E in plane strain
 constant      c itself instead of either
 coefficients, singularity, width, table   of the types that have a profile of one's own)");
     bind_kernel<3>(

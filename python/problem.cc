@@ -170,9 +170,9 @@ namespace plumbline::python
                       {"coefficient", coefficient},
                       mean == "harmonic" ? physics::Mean::harmonic : physics::Mean::arithmetic};
       if (cells != "lattice" && cells != "squares" && cells != "triangles")
-        throw InputError("cells = '" + cells + "'; choose of lattice, squares, triangles");
+        throw InputError("cells = '" + cells + "'; choose one of lattice, squares, triangles");
       if (mean != "harmonic" && mean != "arithmetic")
-        throw InputError("mean = '" + mean + "'; choose of arithmetic, harmonic");
+        throw InputError("mean = '" + mean + "'; choose one of arithmetic, harmonic");
       const bool is_array = !py::isinstance<py::str>(mesh);
       if (!is_array)
         given.mesh_file = mesh.cast<std::string>();

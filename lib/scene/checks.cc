@@ -243,6 +243,19 @@ namespace plumbline::scene
     check_coefficient(scene);
   }
 
+  /// What to write where no solution is known.
+  std::string without_solution(const ReferenceSection &reference)
+  {
+    const auto compared_with = [](const std::string &target) {
+      return "write Study/norms = averages L2 and Study/decisive error = averages L2 | " + target;
+    };
+    if (reference.method)
+      return "to compare with the reference, " + compared_with("reference");
+    return "give the solution; or, to compare each method with its own finest level, " +
+           compared_with("own finest level") +
+           "; or give a Galerkin method as Reference/method, and the target reference";
+  }
+
   void check_norms(const Scene &scene)
   {
     if (scene.is_no_problem())
@@ -264,8 +277,7 @@ namespace plumbline::scene
             ": truncation errors and bounds made of them are of a known solution; use the target "
             "exact or local");
     require(target != Target::exact || !scene.problem.solutions.empty(),
-            decisive + " needs Problem/solution, which is empty; use the target reference, or, if "
-                       "there is no reference, own finest level");
+            decisive + " needs Problem/solution, which is empty; " + without_solution(reference));
     require(target != Target::local || local != LocalSolution::computed || is_of_averages,
             decisive + ": a computed local solution is compared by cell averages; use averages L2 "
                        "or averages Linf");

@@ -319,8 +319,10 @@ namespace plumbline::scene
       const auto corners = physics::split_outside_brackets(box, ':');
       const auto wrong = [&](const std::string &reason)
       {
-        return InputError("box '" + base::shown(box) + "' " + reason +
-                          "; write 'x0, y0, z0 : x1, y1, z1' with increasing coordinates");
+        return InputError(
+            "box '" + base::shown(box) + "' " + reason +
+            "; write 'x0, y0 : x1, y1', in three dimensions 'x0, y0, z0 : x1, y1, z1', with "
+            "increasing coordinates, and ';' between boxes");
       };
       if (corners.size() != 2)
         throw wrong("does not have two corners");

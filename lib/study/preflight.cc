@@ -29,7 +29,7 @@ namespace plumbline::study
     std::vector<std::string> names;
     for (const auto &method : available)
       names.push_back(method->name());
-    throw InputError(key + ": method '" + name + "' is not known; choose of " +
+    throw InputError(key + ": method '" + name + "' is not known; choose one of " +
                      scene::join(names, ", ") + base::did_you_mean(name, names));
   }
 

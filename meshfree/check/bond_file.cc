@@ -119,8 +119,9 @@ namespace plumbline::meshfree
     const geometry::CellLocator cells(mesh);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!cells.find(nodes.places[i]))
-        throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[i]) + ": node " +
-                         std::to_string(nodes.id[i]) + " at " +
+        throw InputError("'" + nodes.file + "'" +
+                         (nodes.line[i] > 0 ? ", line " + std::to_string(nodes.line[i]) : "") +
+                         ": node " + std::to_string(nodes.id[i]) + " at " +
                          to_text(nodes.origin + nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
                          "; take it out, move it in, or choose another level (Study)");

@@ -37,7 +37,7 @@ namespace plumbline::meshfree
     std::string all;
     for (const char *const one : base::words<BondValues>)
       all += (all.empty() ? "'" : ", '") + std::string(one) + "'";
-    throw InputError(key + " = '" + word + "' is not known; choose of " + all);
+    throw InputError(key + " = '" + word + "' is not known; choose one of " + all);
   }
 
   void to_weights(BondValues values, const Kernel<2> &kernel, GivenWeights &given)

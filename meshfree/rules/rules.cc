@@ -67,7 +67,7 @@ namespace plumbline::meshfree
         known.push_back(rule.name);
         list += (list.empty() ? "" : ", ") + rule.name;
       }
-    throw InputError(key + " '" + name + "' is not known; choose of " + list +
+    throw InputError(key + " '" + name + "' is not known; choose one of " + list +
                      base::did_you_mean(name, known));
   }
 } // namespace plumbline::meshfree

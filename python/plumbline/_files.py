@@ -39,7 +39,7 @@ def read_nodes(file, *, format=None, volume=None, style=None, frame=-1, dimensio
         raise _core.InputError(f"read_nodes: dimension = {dimension}; give 2, 3 or None")
     kind = format or _format_of(path)
     if kind not in _readers:
-        raise _core.InputError(f"read_nodes: format = '{kind}' is not known; choose of "
+        raise _core.InputError(f"read_nodes: format = '{kind}' is not known; choose one of "
                                + ", ".join(f"'{one}'" for one in _readers))
     for name, value, usual in (("volume", volume, None), ("style", style, None), ("frame", frame, -1)):
         if value != usual and name not in _arguments[kind]:

@@ -208,9 +208,13 @@ TEST_F(BadFiles, arguments_are_refused_in_our_words)
   expect_found(refused("fly"), "plumbline: no known command is given; write plumbline run");
   expect_found(refused(""), "plumbline: no known command is given; write plumbline run SCENE, or "
                             "another command: run, ");
-  expect_found(refused("run"), "plumbline: SCENE is missing; 'plumbline COMMAND --help' tells all");
-  expect_found(refused("run a.prm --fast"), "the argument '--fast' is not known");
+  expect_found(refused("run"),
+               "plumbline: SCENE is missing; 'plumbline run --help' lists the arguments");
+  expect_found(refused("run a.prm --fast"),
+               "the argument '--fast' is not known; 'plumbline run --help' lists the arguments");
   expect_found(refused("run a.prm --levels many"),
                "the value of --levels = many is not of the right");
+  expect_found(refused("run a.prm --threads -1"), "give a whole number, 0 or greater");
+  expect_found(refused("run a.prm --budget some"), "give a number such as 0.5");
   expect_found(refused("run a.prm --levels"), "--levels has no value, or too many");
 }

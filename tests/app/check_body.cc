@@ -406,7 +406,7 @@ TEST(CheckBody, bad_input_is_refused)
     EXPECT_EQ(outcome.exit_code, 2) << options << outcome.out;
     expect_found(outcome.err, message);
   };
-  refuse("--boundary open", "--boundary = 'open' is not known; choose of 'constrained'");
+  refuse("--boundary open", "--boundary = 'open' is not known; choose one of 'constrained'");
   refuse("--crack ''", "--crack: '' has no points; give 'x0, y0 : x1, y1', or leave it out");
   refuse(free_boundary + " --crack '30,50 : 70,50'",
          "--crack: crack 0 is farther than the horizon from all nodes");

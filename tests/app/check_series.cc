@@ -183,7 +183,8 @@ TEST(Check, takes_stiffnesses_and_force_constants)
       }
   const Outcome word = check(nodes_file, bonds_file, "--bonds-are forces");
   EXPECT_EQ(word.exit_code, 2);
-  expect_found(word.err, "--bonds-are = 'forces' is not known; choose of 'weights', 'stiffness'");
+  expect_found(word.err,
+               "--bonds-are = 'forces' is not known; choose one of 'weights', 'stiffness'");
   Weights wide = example_weights("PA-AC", 0); // has bonds where the kernel is 0
   const Files files = files_of(wide);
   const Outcome beyond = check(files.nodes, files.bonds, "--bonds-are stiffness");

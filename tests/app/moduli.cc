@@ -50,6 +50,15 @@ TEST(ModuliCommand, says_what_modulus_a_rule_has)
     EXPECT_EQ(scalar(published[i], "E"), scalar(ours[i], "E"));
 }
 
+TEST(ModuliCommand, takes_the_words_of_scenes)
+{
+  const std::string same = " --m 3.015 --rules FA";
+  EXPECT_EQ(run("moduli --state stress" + same).out,
+            run("moduli --state 'plane stress'" + same).out);
+  EXPECT_EQ(run("moduli --state strain" + same).out,
+            run("moduli --state 'plane strain'" + same).out);
+}
+
 TEST(ModuliCommand, knows_three_dimensions)
 {
   const Json found = records("--state 3D --m 3 --E 200 --rules FA,OPT");
@@ -82,7 +91,7 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--m 0.5", "is not between 1");
   expect("--m nan", "--m");
   expect("--m 3,015", "looks like a number with a decimal comma; write 3.015");
-  expect("--rules XY", "choose all or of FA, LAMMPS");
+  expect("--rules XY", "choose all or some of FA, LAMMPS");
   expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
   expect("--E 0", "give a number above 0");
 }

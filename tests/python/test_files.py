@@ -161,7 +161,7 @@ def test_surfaces_in_space_are_refused_and_single_cells_are_solid(tmp_path):
     ("a.data", "made by hand\n\n1 atoms\n\nAtoms\n\n1 1 0 0 0\n", {}, "line 5: the style of atoms is not given"),
     ("a.data", "2 atoms\n\nAtoms # full\n\n1 1 0 0 0\n", {}, "atoms are of style 'full'; give style='peri'"),
     ("a.txt", "0 0 0 1 1\n0 0 1 1 1\n", {"dimension": 2}, "z is not the same for all nodes"),
-    ("a.txt", "0 0 0 1 1\n", {"format": "exodus"}, "format = 'exodus' is not known; choose of 'lammps data'"),
+    ("a.txt", "0 0 0 1 1\n", {"format": "exodus"}, "format = 'exodus' is not known; choose one of 'lammps data'"),
     ("a.dump", "ITEM: TIMESTEP\n0\n", {"frame": 2}, "has 1 frames, so that there is no frame 2"),
 ])
 def test_bad_files_are_refused_with_the_place(tmp_path, name, text, given, reason):

@@ -254,6 +254,8 @@ TEST(SceneErrors, tables_of_kernels_name_file_and_row)
   expect("0, 1\n.5, .4\n.5, .3\n1, 0\n", "row 3 of the table of the radial profile has t = 0.5");
   expect("0, 1\n.9, 0\n", "the last t must be 1");
   expect("0, 1\n1, inf\n", "rho.csv");
+  expect_error(section("Kernel", "type = table\n set table file = none.csv"),
+               "Kernel/table file = ");
 }
 
 TEST(SceneErrors, expressions_and_targets)
@@ -262,6 +264,12 @@ TEST(SceneErrors, expressions_and_targets)
   expect_error(section("Problem", "solution = sin(z)"),
                "write a muParser expression in x, y, pi, delta");
   expect_error(section("Problem", "solution ="), "needs Problem/solution");
+  const std::string load = section("Problem", "solution =\n set load = 1\n set constraint = 0");
+  expect_error(load,
+               "nodal Linf | exact' needs Problem/solution, which is empty; give the solution");
+  expect_error(
+      load + section("Reference", "method = Q1"),
+      "write Study/norms = averages L2 and Study/decisive error = averages L2 | reference");
   expect_error(section("Study", "norms = H1"), "'H1' is not a norm");
   expect_error(section("Study", "decisive error = nodal Linf"), "must be 'norm | target'");
   expect_error(section("Study", "decisive error = averages L2 | reference"),

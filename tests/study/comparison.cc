@@ -260,7 +260,7 @@ TEST(Sweep, unknown_methods_are_errors_that_name_the_known_ones)
   }
   catch (const InputError &error)
   {
-    EXPECT_STREQ(error.what(), "Methods/names: method 'IPA' is not known; choose of fake");
+    EXPECT_STREQ(error.what(), "Methods/names: method 'IPA' is not known; choose one of fake");
   }
 }
 

@@ -116,7 +116,7 @@ namespace plumbline::scene
         require(!material.toughness ||
                     (*material.toughness > 0 && std::isfinite(*material.toughness)),
                 "Material/toughness = " + short_number(material.toughness.value_or(0)) +
-                    " must be positive and finite");
+                    " must be positive and finite; give the energy per unit area of a crack");
       }
 
       void check_motion(const Scene &scene) const override

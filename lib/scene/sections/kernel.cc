@@ -103,10 +103,10 @@ namespace plumbline::scene
       return;
     physics::ProfileKeys given{coefficients, singularity, width.value_or(0), {}};
     const std::string file = (std::filesystem::path(folder) / table_file).string();
-    if (!table_file.empty())
-      given.table = read_table(file);
     try
     {
+      if (!table_file.empty())
+        given.table = read_table(file);
       profile = known.make(given);
     }
     catch (const InputError &error)

@@ -90,7 +90,8 @@ namespace plumbline::scene
     };
     const double modulus = value_of("Material/E", E);
     if (!(modulus > 0) || !std::isfinite(modulus))
-      throw InputError("Material/E = " + E + " must be positive and finite");
+      throw InputError("Material/E = " + E +
+                       " must be positive and finite; give Young's modulus > 0");
     const bool is_stress = dimension == 2 && plane == physics::PlaneState::stress;
     const double nu_of_bonds = is_stress ? 1. / 3 : 1. / 4;
     if (!nu.empty() && !(std::abs(value_of("Material/nu", nu) - nu_of_bonds) <= tolerance))

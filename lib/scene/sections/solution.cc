@@ -92,9 +92,9 @@ namespace plumbline::scene
     keys.add(
         "points", points, any_text(),
         "CSV file with columns x and y (and z in three dimensions): points in the domain at which "
-        "'run' writes each static "
-        "solution, its error, its change from the level before and, for Galerkin methods, an "
-        "estimate of its error (points/*.csv; none with Reference/estimate = none). Relative to "
-        "the scene; empty: none.");
+        "'run' writes each static solution of Methods/names, its error, its change from the level "
+        "before and, for Galerkin methods, an estimate of its error (points/*.csv; no estimate "
+        "with Reference/estimate = none). For the values of the reference, name its method there, "
+        "too. Relative to the scene; empty: none.");
   }
 } // namespace plumbline::scene
