@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/number_text.h"
 #include "geometry/tetrahedral_domain.h"
 #include "problem/inside.h"
 #include "scene/mesh_in_space.h"
@@ -65,39 +66,51 @@ namespace plumbline::io
     if (scene.output.points.empty())
       return;
     file_ = (fs::path(scene.folder) / scene.output.points).string();
+    key_ = "Output/points = " + scene.output.points + ": ";
     try
     {
-      std::vector<std::string> axes = {"x", "y"};
-      if (scene.domain.is_in_space())
-        axes.push_back("z");
-      base::Csv csv(file_, axes);
-      while (csv.next())
-      {
-        points_.emplace_back();
-        for (const std::string &axis : axes)
-          points_.back().push_back(csv.number(axis));
-        lines_.push_back(csv.line());
-      }
-      if (points_.empty())
-        throw InputError("'" + file_ + "' has no points; give one " +
-                         (axes.size() == 3 ? "x,y,z" : "x,y") + " on each line");
-      const problem::Level &first = scene.study.series.front().levels.front();
-      if (scene.domain.is_in_space() && scene.domain.mesh.is_file())
-      {
-        const auto mesh = make_mesh_in_space(scene, first);
-        const geometry::TetrahedronSearch cells(*mesh);
-        (void)in_solid([&](const Point<3> &x) { return cells.find(x).has_value(); });
-      }
-      else if (scene.domain.is_in_space())
-        (void)in_solid([cubes = scene.domain.cubes(first.h)](const Point<3> &x)
-                       { return cubes.cell_at(x).has_value(); });
-      else
-        (void)of(scene::make_problem(scene, 0, first));
+      read(scene.domain.is_in_space());
     }
     catch (const InputError &error)
     {
-      throw InputError("Output/points = " + scene.output.points + ": " + error.what());
+      throw InputError(key_ + error.what());
     }
+    // what is wrong with the domain is no fault of the points
+    const problem::Level &first = scene.study.series.front().levels.front();
+    if (scene.domain.is_in_space() && scene.domain.mesh.is_file())
+    {
+      const auto mesh = make_mesh_in_space(scene, first);
+      const geometry::TetrahedronSearch cells(*mesh);
+      (void)in_solid([&](const Point<3> &x) { return cells.find(x).has_value(); });
+    }
+    else if (scene.domain.is_in_space())
+      (void)in_solid([cubes = scene.domain.cubes(first.h)](const Point<3> &x)
+                     { return cubes.cell_at(x).has_value(); });
+    else
+      (void)of(scene::make_problem(scene, 0, first));
+  }
+
+  void PointValues::read(bool is_in_space)
+  {
+    std::vector<std::string> axes = {"x", "y"};
+    if (is_in_space)
+      axes.push_back("z");
+    base::Csv csv(file_, axes);
+    while (csv.next())
+    {
+      points_.emplace_back();
+      for (const std::string &axis : axes)
+        points_.back().push_back(csv.number(axis));
+      lines_.push_back(csv.line());
+      if (!is_in_space && csv.has("z") && csv.number("z") != 0)
+        throw InputError("'" + file_ + "', line " + std::to_string(csv.line()) +
+                         ": z = " + base::to_text(csv.number("z"), 6) +
+                         ", but the scene has two dimensions; take out the column z, or write "
+                         "Domain/dimension = 3");
+    }
+    if (points_.empty())
+      throw InputError("'" + file_ + "' has no points; give one " +
+                       (axes.size() == 3 ? "x,y,z" : "x,y") + " on each line");
   }
 
   std::vector<Point<2>> PointValues::of(const problem::Problem<2> &problem) const
@@ -135,9 +148,9 @@ namespace plumbline::io
   {
     std::string place;
     for (const double x : points_[point])
-      place += (place.empty() ? "" : ", ") + std::to_string(x);
-    throw InputError("'" + file_ + "', line " + std::to_string(lines_[point]) + ": (" + place +
-                     ") lies outside of the domain; take it out");
+      place += (place.empty() ? "" : ", ") + base::to_text(x, 6);
+    throw InputError(key_ + "'" + file_ + "', line " + std::to_string(lines_[point]) + ": (" +
+                     place + ") lies outside of the domain; take it out");
   }
 
   void PointValues::write(const study::ValuesAtPoints &found, const analysis::Record &run,

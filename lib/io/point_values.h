@@ -44,8 +44,9 @@ namespace plumbline::io
     std::vector<dealii::Point<3>>
     in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
+    void read(bool is_in_space);
 
-    std::string file_;
+    std::string file_, key_;                  ///< key_: "Output/points = FILE: ", for messages
     std::vector<std::vector<double>> points_; ///< in the scene's coordinates, two or three of each
     std::vector<std::size_t> lines_;
     /// By case, series and method: u at the level before, shape (n_points, n_components).

@@ -78,10 +78,12 @@ TEST(Points, outside_of_the_domain_are_refused_by_their_line_before_anything_is_
 {
   const std::string file = write("outside.csv", "x,y\n\n0.5,0.5\n1.5,0.5\n");
   expect_refused("run " + scene_at(file),
-                 "'" + file +
-                     "', line 4: (1.500000, 0.500000) lies outside of the domain; take it out");
+                 "'" + file + "', line 4: (1.5, 0.5) lies outside of the domain; take it out");
   expect_refused("run " + scene_at(file, "subsection Domain\n set mesh = squares\nend\n"),
-                 "'" + file + "', line 4: (1.500000, 0.500000) lies outside");
+                 "'" + file + "', line 4: (1.5, 0.5) lies outside");
+  const std::string solid = write("solid.csv", "x,y,z\n0.5,0.5,0\n0.5,0.2,0.1\n");
+  expect_refused("run " + scene_at(solid),
+                 "'" + solid + "', line 3: z = 0.1, but the scene has two dimensions; take out");
 }
 
 TEST(Points, in_space_have_values_and_estimates)
@@ -144,7 +146,7 @@ TEST(Points, in_space_have_values_and_estimates)
   fs::remove_all(folder);
   const std::string outside = write("outside_z.csv", "x,y,z\n0.2,0.2,0.2\n0.75,0.75,0.2\n");
   expect_refused("run " + scene_of(of_sine, outside),
-                 "line 3: (0.750000, 0.750000, 0.200000) lies outside of the domain");
+                 "line 3: (0.75, 0.75, 0.2) lies outside of the domain");
   expect_refused("run " + scene_of(of_sine, write("plane.csv", "x,y\n0.5,0.2\n")), "no column z");
 }
 
