@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -20,6 +21,7 @@ namespace plumbline::check
   namespace
   {
     constexpr std::size_t n_columns = report::summary_columns;
+    constexpr double round_off = 1e-10; // of sums that are printed with three digits
 
     /// Nodes of Ω.
     std::size_t n_of_domain(const Findings &found)
@@ -38,8 +40,11 @@ namespace plumbline::check
     {
       const std::size_t n_free = n_of_domain(found);
       out << "nodes     " << input.nodes_file << ": " << n_free << " free, "
-          << found.ids.size() - n_free << " in the collar; volumes are off the cells' areas by "
-          << base::to_percent(found.volume_defect) << '\n'
+          << found.ids.size() - n_free << " in the collar; volumes "
+          << (std::abs(found.volume_defect) < round_off
+                  ? "are the cells' areas"
+                  : "are off the cells' areas by " + base::to_percent(found.volume_defect))
+          << '\n'
           << "bonds     " << input.bonds_file << ": "
           << (found.body ? found.body->n_bonds : found.weights.n_bonds) << ", at most "
           << found.weights.largest_family << " of a node";
@@ -60,6 +65,24 @@ namespace plumbline::check
             << found.ids[defect.worst.node] << '\n';
       out << "          reproduces polynomials up to degree " << found.moments.exact_degree
           << " (to " << MomentCheck::tolerance << ")\n";
+    }
+
+    /// One line for E and nu, before what a short summary cuts off.
+    void tell_moduli(std::ostream &out, const Findings &found)
+    {
+      std::string text;
+      for (const ElasticRange &one : found.elastic)
+        if (const std::size_t state = one.name.find(", plane"); state != std::string::npos)
+        {
+          const bool is_first = one.name[0] == 'E';
+          text += (text.empty() ? ""
+                   : is_first   ? "; "
+                                : ", ") +
+                  (is_first ? one.name.substr(state + 2) + ": E = " : std::string("nu = ")) +
+                  base::to_text(one.median, 4);
+        }
+      if (!text.empty())
+        out << "moduli    " << text << " (medians over the nodes)\n";
     }
 
     void tell_elastic(std::ostream &out, const Findings &found)
@@ -151,6 +174,7 @@ namespace plumbline::check
     out << std::setprecision(4) << "report    " << page << '\n';
     tell_body(out, found);
     tell_nodes(out, found, input);
+    tell_moduli(out, found);
     tell_moments(out, found);
     tell_elastic(out, found);
     for (const CaseCheck &one : found.cases)

@@ -84,7 +84,8 @@ namespace plumbline::meshfree
       {
         found.rule = rule->rule;
         found.rule_factor = rule->factor;
-        if (rule->is_full_area() && found.causes.empty() &&
+        const bool is_meant = std::find(meant.begin(), meant.end(), "FA") != meant.end();
+        if (rule->is_full_area() && !is_meant && found.causes.empty() &&
             found.moments.typical() > found.precision.moments)
           found.rule_remark = ramp_text(ramp_effects(given, given.families));
       }

@@ -245,6 +245,10 @@ TEST(Check, names_a_ramp_that_is_missing_where_the_scene_means_one)
       "nodes would be off by 7.09 % with those of LAMMPS, 7.09 % with those of QWJ, 6.93 % "
       "with those of PA-AC, instead of 4.72 %, so that moments do not tell whether a ramp "
       "was left out: name the rule that is meant in Methods/names");
+  // where whole cells are meant
+  const Outcome named = check(files.nodes, files.bonds, require + "--set Methods/names=FA,OPT");
+  expect_found(named.out, "the weights are those of FA");
+  EXPECT_EQ(named.out.find("whole cells"), std::string::npos) << named.out;
   // where it makes no difference
   const Files two = files_of(example_weights("FA", 0, {{"Study/m", "2"}}));
   const Outcome same =
@@ -268,7 +272,7 @@ TEST(Check, requires_what_it_is_told_to)
   EXPECT_EQ(check(partial.nodes, partial.bonds, "--quiet --require moments=0.09").exit_code, 1);
   const Outcome unknown = check(nodes_file, bonds_file, "--require exact");
   EXPECT_EQ(unknown.exit_code, 2);
-  expect_found(unknown.err, "--require 'exact' is not known; choose of ac, consistent, ");
+  expect_found(unknown.err, "--require 'exact' is not known; choose one of ac, consistent, ");
   const Outcome negative = check(nodes_file, bonds_file, "--require moments=-1");
   EXPECT_EQ(negative.exit_code, 2);
   expect_found(negative.err, "'-1' is no positive number; write moments=0.05");
