@@ -48,16 +48,26 @@ namespace plumbline::base
     }
   }
 
+  std::string time_left(double before, double in_step, double fraction)
+  {
+    constexpr double least = .02, least_time = .5; // of work and time [s], to tell of the rest
+    if (fraction <= least || before < least_time)
+      return "";
+    const double left = before * (1 - fraction) / fraction - in_step;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(0) << "; some " << left << " s left";
+    return left > 0 ? text.str() : "; longer than expected from the steps before";
+  }
+
   void ProgressLine::print() const
   {
-    constexpr double least = .02; // of the work, to tell how long the rest takes
     const auto seconds_since = [](Clock::time_point start)
     { return std::chrono::duration<double>(Clock::now() - start).count(); };
     std::ostringstream line;
     line << std::fixed << std::setprecision(0) << std::setw(3) << 100 * fraction_ << " %  "
          << (what_.empty() ? "preparing" : what_) << ", " << seconds_since(step_start_) << " s";
-    if (fraction_ > least)
-      line << "; some " << seconds_since(start_) * (1 - fraction_) / fraction_ << " s left";
+    const double in_step = seconds_since(step_start_);
+    line << time_left(seconds_since(start_) - in_step, in_step, fraction_);
     std::cerr << (is_terminal_ ? "\r\033[K" : "") << line.str() << (is_terminal_ ? "" : "\n")
               << std::flush;
   }

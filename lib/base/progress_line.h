@@ -8,6 +8,12 @@
 
 namespace plumbline::base
 {
+  /// "; some 27 s left", by the rate of the steps before; empty where they tell nothing.
+  /// @param before    time that they took [s]
+  /// @param in_step   time in the present one [s]
+  /// @param fraction  of the work that they did
+  std::string time_left(double before, double in_step, double fraction);
+
   /// What is being done, for how long, and how long it may still take: on a terminal a line that is
   /// rewritten every second, elsewhere a line after one second and then every 10 seconds. On
   /// standard error.

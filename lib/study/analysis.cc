@@ -181,7 +181,7 @@ namespace plumbline::study
           const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;
           if (is_due && analysis_.begin && !std::exchange(is_begun, true))
           {
-            show_progress(place.record(analysis_.name, method).key, "problem and reference");
+            show_progress(place.record(analysis_.name, method).key, words_of_begin());
             analysis_.begin(place);
             if (std::any_of(control_.earlier.references.begin(), control_.earlier.references.end(),
                             is_here))
@@ -263,10 +263,23 @@ namespace plumbline::study
         return false;
       }
 
-      /// Of one method at a level, for progress: cells in a unit of Ω.
+      /// Of one method at a level, for progress: cells in a unit of Ω, on meshes times those of a
+      /// ball, whose entries are all integrated.
       double work_of(const problem::Level &level) const
       {
-        return std::pow(level.h, -static_cast<double>(scene_.domain.dimension));
+        const double dimension = scene_.domain.dimension;
+        const double n_cells = std::pow(level.h, -dimension);
+        return scene_.domain.mesh.is_file() ? n_cells * std::pow(level.horizon / level.h, dimension)
+                                            : n_cells;
+      }
+
+      std::string words_of_begin() const
+      {
+        const scene::ReferenceSection &reference = scene_.reference;
+        if (!reference.method)
+          return "problem";
+        return "reference by " + *reference.method +
+               (reference.estimate == scene::Estimate::none ? "" : " and its error estimate");
       }
 
       void show_progress(const Key &key, const std::string &what) const

@@ -133,7 +133,7 @@ TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
   expect_refusal("--set Kernel/limit=Navier", "does not fit the scalar kernel");
   expect_refusal("--set 'Problem/solution=x +* y'", "does not parse");
   expect_refusal("--set 'Problem/solution=case1: x; case2: y; case3: log(x)'", "gives");
-  expect_refusal("--methods IPA", "method 'IPA' is not known; choose of FA, LAMMPS");
+  expect_refusal("--methods IPA", "method 'IPA' is not known; choose one of FA, LAMMPS");
   expect_refusal("--budget -1", "--budget is negative");
   expect_refusal("--set Domain/mesh=no.geo", "Domain/mesh: mesh file");
   expect_refusal("--set Study", "has no '='; write --set Section/key=value");
@@ -308,6 +308,14 @@ TEST(ProgressLine, is_printed_after_a_second_and_then_rarely)
   const std::string text = testing::internal::GetCapturedStderr();
   expect_found(text, " 25 %  level 1 of 2, ");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST(ProgressLine, tells_the_time_left_by_the_steps_before)
+{
+  EXPECT_EQ(base::time_left(10, 3, .25), "; some 27 s left");
+  EXPECT_EQ(base::time_left(10, 31, .25), "; longer than expected from the steps before");
+  EXPECT_EQ(base::time_left(0, 5, .25), ""); // resumed: the quarter took no time
+  EXPECT_EQ(base::time_left(10, 3, 0), "");
 }
 
 TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)
