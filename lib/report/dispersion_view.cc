@@ -1,4 +1,5 @@
 #include "report/charts.h"
+#include "report/counted.h"
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/study_results.h"
@@ -196,7 +197,7 @@ namespace plumbline::report
         "second moments of the stencil, or because a Galerkin space holds the continuous piecewise "
         "linear functions.";
     view.verdicts = verdicts(results);
-    view.facts = {std::to_string(results.records.size()) + " symbols"};
+    view.facts = {counted(results.records.size(), "symbol")};
     for (const auto &[sign, word, outcome] : {std::tuple("✓ ", " converge", "converges"),
                                               {"? ", " undecided", "undecided"},
                                               {"✗ ", " do not", "stalls"}})

@@ -1,5 +1,6 @@
 #include "report/dynamics_view.h"
 
+#include "report/counted.h"
 #include "report/selection.h"
 #include "report/text_table.h"
 #include "study/reference_estimate.h"
@@ -351,7 +352,7 @@ namespace plumbline::report
       const auto found = results.facts.find(name);
       return found == results.facts.end() ? "" : found->second;
     };
-    view.facts = {std::to_string(results.records.size()) + " runs", "T = " + fact("final time T"),
+    view.facts = {counted(results.records.size(), "run"), "T = " + fact("final time T"),
                   "regime " + fact("regime")};
     view.parts = {rates(results),  orders(results),   estimates(results), best(results),
                   failed(results), reasons(results),  runs(results),      reference(results),

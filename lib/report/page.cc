@@ -1,5 +1,6 @@
 #include "report/page.h"
 
+#include "report/counted.h"
 #include "report/equation.h"
 #include "report/page_parts.h"
 #include "report/report_parts.h"
@@ -141,8 +142,8 @@ namespace plumbline::report
         for (const study::Trend &trend : results.trends)
           if (trend.error == results.decisive_error)
             ++n[static_cast<std::size_t>(trend.outcome)];
-        data["n_methods"] = methods(results).size();
-        data["n_runs"] = results.records.size();
+        data["methods_count"] = counted(methods(results).size(), "method");
+        data["runs_count"] = counted(results.records.size(), "run");
         data["n_converge"] = n[0];
         data["n_stall"] = n[1];
         data["n_undecided"] = n[2];

@@ -1,4 +1,5 @@
 #include "report/charts.h"
+#include "report/counted.h"
 #include "report/small_multiples.h"
 #include "report/text_table.h"
 #include "report/view.h"
@@ -412,11 +413,11 @@ namespace plumbline::report
     constexpr std::array classes = {"converges", "undecided", "stalls"};
     for (const study::Verdict &v : results.verdicts)
       view.ratings.emplace_back(classes[static_cast<std::size_t>(v.rating)]);
-    view.facts = {std::to_string(results.verdicts.size()) + " methods",
-                  std::to_string(std::count_if(results.records.begin(), results.records.end(),
-                                               [](const Record &record)
-                                               { return record.key.variant.empty(); })) +
-                      " operators"};
+    view.facts = {counted(results.verdicts.size(), "method"),
+                  counted(static_cast<std::size_t>(std::count_if(
+                              results.records.begin(), results.records.end(),
+                              [](const Record &record) { return record.key.variant.empty(); })),
+                          "operator")};
     view.parts = {
         measures(results),
         eigenvalues(results),

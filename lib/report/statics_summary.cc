@@ -1,6 +1,7 @@
 #include "report/statics_summary.h"
 
 #include "base/number_text.h"
+#include "report/counted.h"
 #include "report/text_table.h"
 #include "study/cheapest.h"
 #include "study/model_facts.h"
@@ -148,7 +149,7 @@ namespace plumbline::report
                          (one->field_estimate > 0
                               ? ", " + base::to_text(one->field_estimate, n_digits) + " (field, L2)"
                               : "") +
-                         "; " + std::to_string(one->certified_digits) + " certified digits");
+                         "; " + counted(one->certified_digits, "certified digit"));
     }
 
     /// Of the first problems and series.

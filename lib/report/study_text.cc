@@ -3,6 +3,7 @@
 #include "report/view.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <utility>
 
@@ -84,6 +85,8 @@ namespace plumbline::report
       std::string text;
       for (const auto &[outcome, names] : found)
         text += (text.empty() ? "" : "; ") + outcome + ": " + names;
+      if (!text.empty() && text.compare(0, 2, "m-") != 0) // of m-convergent methods
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
       return text;
     }
 

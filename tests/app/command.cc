@@ -312,10 +312,11 @@ TEST(ProgressLine, is_printed_after_a_second_and_then_rarely)
 
 TEST(ProgressLine, tells_the_time_left_by_the_steps_before)
 {
-  EXPECT_EQ(base::time_left(10, 3, .25), "; some 27 s left");
-  EXPECT_EQ(base::time_left(10, 31, .25), "; longer than expected from the steps before");
-  EXPECT_EQ(base::time_left(0, 5, .25), ""); // resumed: the quarter took no time
-  EXPECT_EQ(base::time_left(10, 3, 0), "");
+  EXPECT_EQ(plumbline::base::time_left(10, 3, .25), "; some 27 s left");
+  EXPECT_EQ(plumbline::base::time_left(10, 31, .25),
+            "; longer than expected from the steps before");
+  EXPECT_EQ(plumbline::base::time_left(0, 5, .25), ""); // resumed: the quarter took no time
+  EXPECT_EQ(plumbline::base::time_left(10, 3, 0), "");
 }
 
 TEST(Command, a_killed_run_has_lost_nothing_that_is_finished)

@@ -87,7 +87,7 @@ TEST(StudySummary, shows_the_finest_levels_and_ends_in_the_answer)
   EXPECT_NE(text.find("method3  0.025"), std::string::npos);
   const auto lines = lines_of(text);
   ASSERT_GE(lines.size(), 3u);
-  EXPECT_EQ(lines.back(), "stable: method0, method2; unstable: method1, method3");
+  EXPECT_EQ(lines.back(), "Stable: method0, method2; unstable: method1, method3");
   EXPECT_EQ(lines[lines.size() - 3], "report: results/stability.html");
   report::View answered = long_view(4);
   answered.answer = "The crack runs.";
@@ -110,7 +110,7 @@ TEST(StudyPage, begins_with_the_answer_that_the_terminal_ends_in)
   results.analysis = "stability";
   report::View view = long_view(4);
   write_study(view, results, folder.path());
-  const std::string answer = "stable: method0, method2; unstable: method1, method3";
+  const std::string answer = "Stable: method0, method2; unstable: method1, method3";
   const std::string html = fixture::read(folder.path() / "stability.html");
   EXPECT_NE(html.find("<p class=\"answer\">" + answer + "</p>"), std::string::npos);
   EXPECT_NE(fixture::read(folder.path() / "stability.md").find("\n\n" + answer + "\n\n"),
