@@ -9,6 +9,7 @@
 #include "report/frames.h"
 #include "study/preflight.h"
 #include "study/transient.h"
+#include "work_of_ranks.h"
 
 #include <map>
 
@@ -65,11 +66,19 @@ namespace plumbline::app
 
   int run_transient(const RunOptions &options, const scene::Scene &scene)
   {
-    if (base::Communicator::all().rank() != 0)
-      return 0; // the work is not shared among ranks: the first one does it
+    const base::Communicator all = base::Communicator::all();
+    const method::Methods methods = study::choose_methods(scene, all_methods());
+    const method::Methods repeated = scene.domain.is_in_space()
+                                         ? study::repeated_by_ranks(scene, methods)
+                                         : methods;
+    const bool is_shared = repeated.size() < methods.size();
+    if (!is_shared && all.rank() != 0)
+      return 0; // the first one does the work
+    const base::Communicator ranks = is_shared ? all : base::Communicator::alone();
     const fs::path folder = output_folder(options.output, scene);
-    check_frames(scene, study::choose_methods(scene, all_methods()), folder);
+    on_first_rank(ranks, [&] { check_frames(scene, methods, folder); });
     study::TransientOptions transient;
+    transient.ranks = ranks;
     transient.on_frame = [folder, times = std::map<std::string, std::vector<double>>()](
                              const study::Record &record, const study::Frame &frame) mutable
     {
@@ -81,6 +90,12 @@ namespace plumbline::app
     AnalysisRow row{study::transient_analysis(all_methods(), transient), report::dynamics_view,
                     "run"};
     row.analysis.are_failures_findings = scene.time.shows_blow_up;
+    row.ranks = ranks;
+    if (all.n_ranks() > 1)
+      row.provenance["work of ranks"] =
+          is_shared ? work_of_ranks(scene, methods) : work_of_first_rank;
+    if (is_shared && all.n_ranks() > 1 && !repeated.empty())
+      row.note = repetition(scene, methods, all.n_ranks());
     return analyse([&](const study::Checkpoints &) { return row; }, options, scene);
   }
 } // namespace plumbline::app

@@ -23,23 +23,28 @@ namespace plumbline::analysis
     }
   } // namespace
 
-  double largest_eigenvalue(const algebra::Action &symmetric, std::size_t n, double tolerance)
+  double largest_eigenvalue(const algebra::Action &symmetric, std::size_t n, double tolerance,
+                            const Parts &parts)
   {
+    const base::Communicator &ranks = parts.ranks;
     Vector before(n), now(n), next(n), alpha, beta;
     for (std::size_t i = 0; i < n; ++i) // orthogonal to no eigenvector, most likely
-      now[i] = 1 + .5 * std::sin(1. + static_cast<double>(i) * static_cast<double>(i));
-    const double start = norm(now);
+    {
+      const auto number = static_cast<double>(parts.number ? parts.number(i) : i);
+      now[i] = 1 + .5 * std::sin(1. + number * number);
+    }
+    const double start = norm(now, ranks);
     for (double &value : now)
       value /= start;
     int next_check = 10;
     for (int k = 1; k <= most_steps; ++k)
     {
       symmetric(now, next);
-      alpha.push_back(dot(next, now));
+      alpha.push_back(dot(next, now, ranks));
       add(next, -alpha.back(), now);
       if (!beta.empty())
         add(next, -beta.back(), before);
-      const double size = norm(next);
+      const double size = norm(next, ranks);
       if (!std::isfinite(size))
         break;
       const bool is_exhausted = size <= 1e-14 * std::abs(alpha[0]);
@@ -74,7 +79,7 @@ namespace plumbline::analysis
           for (double &value : y)
             value = -value;
         },
-        motion.n, tolerance);
+        motion.n, tolerance, {motion.ranks, {}});
     return largest > 0 ? limit / std::sqrt(largest) : std::numeric_limits<double>::infinity();
   }
 } // namespace plumbline::analysis

@@ -183,7 +183,7 @@ namespace plumbline::analysis
   Counts integrate(const Motion &motion, const Scheme &scheme, const Stepping &stepping, double end,
                    State &state, const Observer &observer)
   {
-    check(motion, scheme, stepping, end, state);
+    motion.ranks.together([&] { check(motion, scheme, stepping, end, state); });
     Counts counts;
     const double start = state.t;
     if (end == start)
@@ -196,6 +196,7 @@ namespace plumbline::analysis
     const std::uint64_t n_steps = n_equal_steps(end - start, stepping.step);
     const double step = (end - start) / static_cast<double>(n_steps);
     Flow flow(motion, counts);
+    const bool is_shared = motion.ranks.n_ranks() > 1;
     for (std::uint64_t k = 1; k <= n_steps; ++k)
     {
       if (scheme.is_implicit())
@@ -212,7 +213,8 @@ namespace plumbline::analysis
         flow.apply(state);
       state.t = k == n_steps ? end : start + static_cast<double>(k) * step;
       counts.n_steps = k;
-      if (is_split ? !flow.is_still_finite() : !is_finite(state))
+      const bool is_lost = is_split ? !flow.is_still_finite() : !is_finite(state);
+      if (is_shared ? motion.ranks.any(is_lost) : is_lost)
       {
         std::ostringstream message;
         message << "the solution is not finite any more after " << k << " steps, at t = " << state.t

@@ -4,17 +4,17 @@
 
 namespace plumbline::analysis
 {
-  double dot(const Vector &x, const Vector &y)
+  double dot(const Vector &x, const Vector &y, const base::Communicator &ranks)
   {
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
       sum += x[i] * y[i];
-    return sum;
+    return ranks.sum(sum);
   }
 
-  double norm(const Vector &x)
+  double norm(const Vector &x, const base::Communicator &ranks)
   {
-    return std::sqrt(dot(x, x));
+    return std::sqrt(dot(x, x, ranks));
   }
 
   void add(Vector &x, double factor, const Vector &y)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/communicator.h"
+
 #include <functional>
 #include <vector>
 
@@ -17,6 +19,8 @@ namespace plumbline::analysis
     /// ∂a/∂u v, symmetric; implicit schemes and critical steps need it.
     std::function<void(const Vector &u, const Vector &v, Vector &out)> tangent = {};
     double damping = 0; ///< η >= 0 [1/time]
+    /// That have a part of the unknowns each: n is this one's, and functions are collective.
+    base::Communicator ranks = base::Communicator::alone();
   };
 
   struct State
@@ -25,8 +29,10 @@ namespace plumbline::analysis
     double t = 0;
   };
 
-  double norm(const Vector &x);
-  double dot(const Vector &x, const Vector &y);
+  /// @param ranks  that have a part of the vectors each
+  double norm(const Vector &x, const base::Communicator &ranks = base::Communicator::alone());
+  double dot(const Vector &x, const Vector &y,
+             const base::Communicator &ranks = base::Communicator::alone());
 
   /// x += factor y
   void add(Vector &x, double factor, const Vector &y);

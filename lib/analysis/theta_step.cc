@@ -19,15 +19,16 @@ namespace plumbline::analysis
     {
       Vector r = b, p = b, ap(b.size());
       x.assign(b.size(), 0);
-      const double wanted = linear_tolerance * linear_tolerance * dot(b, b);
+      const double wanted = linear_tolerance * linear_tolerance * dot(b, b, motion.ranks);
       for (int k = 0; k < most_linear; ++k)
       {
-        const double rr = dot(r, r);
+        const double rr = dot(r, r, motion.ranks);
         if (rr <= wanted)
           return;
         motion.tangent(u, p, ap);
         ++counts.n_tangents;
-        const double pp = dot(p, p), growth = dot(p, ap) / pp; // ≤ the largest eigenvalue
+        const double pp = dot(p, p, motion.ranks);
+        const double growth = dot(p, ap, motion.ranks) / pp; // ≤ the largest eigenvalue
         if (!(gamma * growth < 1))
         {
           std::ostringstream message;
@@ -40,7 +41,7 @@ namespace plumbline::analysis
         add(x, alpha, p);
         for (std::size_t i = 0; i < r.size(); ++i)
           r[i] -= alpha * (p[i] - gamma * ap[i]);
-        const double ratio = dot(r, r) / rr;
+        const double ratio = dot(r, r, motion.ranks) / rr;
         for (std::size_t i = 0; i < p.size(); ++i)
           p[i] = r[i] + ratio * p[i];
       }
@@ -64,7 +65,8 @@ namespace plumbline::analysis
       known_u[i] = state.u[i] + step * (theta * known_v[i] + (1 - theta) * state.v[i]);
     }
     add(u, step, state.v);
-    const double scale = norm(state.u) + step * norm(state.v) + gamma * norm(a);
+    const double scale = norm(state.u, motion.ranks) + step * norm(state.v, motion.ranks) +
+                         gamma * norm(a, motion.ranks);
     for (int k = 0;; ++k)
     {
       motion.acceleration(u, t, a);
@@ -72,7 +74,7 @@ namespace plumbline::analysis
       Vector residual(n);
       for (std::size_t i = 0; i < n; ++i)
         residual[i] = known_u[i] + gamma * a[i] - u[i];
-      const double size = norm(residual);
+      const double size = norm(residual, motion.ranks);
       if (size <= tolerance * scale)
         break;
       if (k == most_newton || !std::isfinite(size))

@@ -46,7 +46,8 @@ namespace plumbline::analysis
   } // namespace
 
   TimeSeries TimeSeries::resolve(const std::function<Vector(double)> &at, double end,
-                                 double tolerance, const std::string &what, std::size_t least)
+                                 double tolerance, const std::string &what, std::size_t least,
+                                 const base::Communicator &ranks)
   {
     constexpr std::size_t n_controls = 3;
     TimeSeries series(end, {});
@@ -68,9 +69,9 @@ namespace plumbline::analysis
           finer.push_back(at(t));
           series.at(t, guess);
           analysis::add(guess, -1, finer.back());
-          difference = std::max(difference, norm(guess));
+          difference = std::max(difference, norm(guess, ranks));
         }
-        size = std::max(size, norm(finer.back()));
+        size = std::max(size, norm(finer.back(), ranks));
       }
       series.values_ = std::move(finer);
       // at the last n a large difference only shows that n / 2 is too small: the controls decide
@@ -80,8 +81,8 @@ namespace plumbline::analysis
         for (const double s : base::control_points(controls.empty() ? n_controls : 0))
           controls.emplace_back(s * end, at(s * end));
         for (const auto &[t, value] : controls)
-          size = std::max(size, norm(value));
-        difference = std::max(is_new ? 0 : difference, series.difference(controls));
+          size = std::max(size, norm(value, ranks));
+        difference = std::max(is_new ? 0 : difference, series.difference(controls, ranks));
       }
       series.error_ = size > 0 ? difference / size : 0;
       if (difference <= tolerance * size && n + 1 >= least)
@@ -90,7 +91,8 @@ namespace plumbline::analysis
     refuse(what, series.error_);
   }
 
-  double TimeSeries::difference(const std::vector<std::pair<double, Vector>> &values) const
+  double TimeSeries::difference(const std::vector<std::pair<double, Vector>> &values,
+                                const base::Communicator &ranks) const
   {
     double largest = 0;
     Vector guess;
@@ -98,7 +100,7 @@ namespace plumbline::analysis
     {
       at(t, guess);
       analysis::add(guess, -1, value);
-      largest = std::max(largest, norm(guess));
+      largest = std::max(largest, norm(guess, ranks));
     }
     return largest;
   }
@@ -122,7 +124,8 @@ namespace plumbline::analysis
       std::vector<Vector> values;
       for (std::size_t k = 0; k <= n; ++k)
         values.push_back(all[k * (last / n)]);
-      if (TimeSeries(end, std::move(values)).difference(controls) <= tolerance * size)
+      if (TimeSeries(end, std::move(values)).difference(controls, base::Communicator::alone()) <=
+          tolerance * size)
         return n + 1;
     }
     return {};

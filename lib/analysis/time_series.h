@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/communicator.h"
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,9 +26,11 @@ namespace plumbline::analysis
     /// settles.
     /// @param what   for the message
     /// @param least  points at least, see `points`
+    /// @param ranks  that have a part of the vector each; collective over them
     /// @throws InputError  not at 65 points
     static TimeSeries resolve(const std::function<Vector(double t)> &at, double end,
-                              double tolerance, const std::string &what, std::size_t least = 0);
+                              double tolerance, const std::string &what, std::size_t least = 0,
+                              const base::Communicator &ranks = base::Communicator::alone());
 
     /// How many points, 17, 33 or 65, a vector takes that costs so little that it can be looked at
     /// many times: at 300 base::control_points in time, so that what lasts longer than .6 % of the
@@ -47,7 +51,8 @@ namespace plumbline::analysis
 
   private:
     /// The largest difference to values at times.
-    double difference(const std::vector<std::pair<double, Vector>> &values) const;
+    double difference(const std::vector<std::pair<double, Vector>> &values,
+                      const base::Communicator &ranks) const;
 
     TimeSeries(double end, std::vector<Vector> values) : end_(end), values_(std::move(values)) {}
 

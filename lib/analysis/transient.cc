@@ -1,6 +1,7 @@
 #include "analysis/transient.h"
 
 #include "analysis/critical_step.h"
+#include "method/distributed_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ namespace plumbline::analysis
     Motion motion;
     motion.n = equation_.size();
     motion.damping = damping_;
+    motion.ranks = method::ranks_of(equation_);
     motion.acceleration = [this](const Vector &u, double t, Vector &a)
     {
       drive_.at(t, g_);
@@ -61,7 +63,11 @@ namespace plumbline::analysis
       for (double &value : y)
         value = -value;
     };
-    return largest_eigenvalue(stiffness, equation_.size()) / density_;
+    constexpr double tolerance = 1e-4;
+    Parts parts;
+    if (const auto *const shared = method::distributed(equation_))
+      parts = {shared->ranks(), [shared](std::size_t i) { return shared->number(i); }};
+    return largest_eigenvalue(stiffness, equation_.size(), tolerance, parts) / density_;
   }
 
   Energies Transient::energies(const State &state) const

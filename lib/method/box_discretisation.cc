@@ -418,21 +418,21 @@ namespace plumbline::method
                                                            int margin) const
   {
     const Nearness is_near(lattice_, node_place_, margin);
+    const CubeRange range = with_margin(own_nodes(), margin);
     std::vector<double> values;
-    for_each_position(with_margin({{}, nodes_.n}, margin), n_components_,
-                      [&](unsigned int c, const std::array<int, 3> &at)
-                      {
-                        values.push_back(!nodes_.free(at) && is_near(at)
-                                             ? problem.constraint.value(place(at), c)
-                                             : 0);
-                      });
+    values.reserve(place_in(range, n_components_, range.lower));
+    const auto evaluate = [&](unsigned int c, const std::array<int, 3> &at) {
+      values.push_back(!nodes_.free(at) && is_near(at) ? problem.constraint.value(place(at), c)
+                                                       : 0);
+    };
+    node_slabs_.ranks().together([&] { for_each_position(range, n_components_, evaluate); });
     return values;
   }
 
   std::vector<Point> BoxDiscretisation::free_points() const
   {
     std::vector<Point> points;
-    for_each_position({{}, nodes_.n}, 1,
+    for_each_position(own_nodes(), 1,
                       [&](unsigned int, const std::array<int, 3> &at)
                       {
                         if (nodes_.free(at))

@@ -1,4 +1,5 @@
 // The semi-discrete equation of motion on unions of boxes, in three dimensions.
+#include "algebra/slab_operator.h"
 #include "algebra/spectrum.h"
 #include "base/error.h"
 #include "method/box_discretisation.h"
@@ -7,6 +8,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace plumbline::method
@@ -63,14 +65,17 @@ namespace plumbline::method
       return rows;
     }
 
+    /// @param slabs       where ranks share the nodes
+    /// @param n_unknowns  of this rank
     MassRoot mass_root(const algebra::Stencil &mass, const geometry::BoxNodes &nodes,
-                       std::size_t n_unknowns)
+                       const std::optional<base::Slabs> &slabs, std::size_t n_unknowns)
     {
       const double own = mass(0, 0, 0, 0, 0);
       if (is_diagonal(mass))
         return MassRoot(std::vector<double>(n_unknowns, own));
       if (nodes.is_free.empty())
-        return MassRoot(ProductMass{nodes.n, mass.n_blocks(), own, mass(0, 0, 1, 0, 0) / own});
+        return MassRoot(ProductMass{nodes.n, mass.n_blocks(), own, mass(0, 0, 1, 0, 0) / own},
+                        slabs);
       return MassRoot(assemble(mass, nodes), mass.n_blocks());
     }
   } // namespace
@@ -82,36 +87,52 @@ namespace plumbline::method
     const auto mass = std::make_shared<const algebra::Stencil>(
         is_lumped ? algebra::lump(mass_stencil(), 1) : mass_stencil());
     const bool is_collocated = is_diagonal(*mass) && (*mass)(0, 0, 0, 0, 0) == 1;
-    const auto positions = free_positions(nodes_, n_components_);
-    const std::size_t n_nodes = positions.size() / n_components_;
+    std::optional<NodeSlabs> distribution;
+    if (node_slabs_.ranks().n_ranks() > 1)
+      distribution = {node_slabs_, static_cast<std::size_t>(nodes_.n[0]) * nodes_.n[1]};
+    const geometry::BoxNodes own = {{nodes_.n[0], nodes_.n[1], node_slabs_.n_owned()},
+                                    nodes_.is_free};
+    const auto positions =
+        std::make_shared<const std::vector<std::size_t>>(free_positions(own, n_components_));
+    const std::size_t n_unknowns = positions->size(), n_nodes = n_unknowns / n_components_;
     const auto unknowns = [positions](const Vector &over_nodes)
     {
       State u;
-      u.reserve(positions.size());
-      for (const std::size_t position : positions)
+      u.reserve(positions->size());
+      for (const std::size_t position : *positions)
         u.push_back(over_nodes[position]);
       return u;
     };
-    const auto driven = [this, unknowns](const algebra::Stencil &by, const problem::Field<3> &field,
-                                         const Instant &instant)
+    const auto driven = [this, own, unknowns](const algebra::Stencil &by,
+                                              const problem::Field<3> &field,
+                                              const Instant &instant)
     {
       Vector result = tested(field);
       if (by.reach() > 0)
-        result -= collar_action(by, nodes_, constraint_values(instant, by.reach()));
+        result -= collar_action(by, own, constraint_values(instant, by.reach()));
       return unknowns(result);
     };
     LinearParts<3> parts{
         free_points(),
         n_components_,
         {},
-        mass_root(*mass, nodes_, positions.size()),
-        algebra::restrict(algebra::make_operator(stencil_, nodes_, backend_),
-                          n_components_ * nodes_.n_positions(), positions),
+        mass_root(*mass, nodes_, distribution ? std::optional(distribution->slabs) : std::nullopt,
+                  n_unknowns),
+        {},
         {},
         [=](const Instant &instant) { return driven(stencil_, instant.load, instant); },
         [=](const Instant &instant) { return driven(*mass, *instant.solution, instant); },
-        is_collocated ? std::pow(lattice_.h(), 3) : 1};
-    for (std::size_t k = 0; k < positions.size(); ++k)
+        is_collocated ? std::pow(lattice_.h(), 3) : 1,
+        distribution};
+    if (distribution)
+      parts.stiffness = [by = std::make_shared<const algebra::SlabOperator>(
+                             stencil_, nodes_.n, node_slabs_, backend_)](const State &x, State &y)
+      { by->apply(x.data(), y.data()); };
+    else
+      parts.stiffness = algebra::restrict(algebra::make_operator(stencil_, nodes_, backend_),
+                                          n_components_ * nodes_.n_positions(), *positions);
+    parts.place.reserve(n_unknowns);
+    for (std::size_t k = 0; k < n_unknowns; ++k)
       parts.place.push_back(k % n_components_ * n_nodes + k / n_components_);
     return move_linear<3>(std::move(parts));
   }

@@ -1,8 +1,10 @@
 #include "method/linear_motion.h"
 
 #include "base/error.h"
+#include "method/distributed_motion.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace plumbline::method
@@ -35,10 +37,17 @@ namespace plumbline::method
       State state(const problem::Field<dim> &field) const override
       {
         State u(n_);
-        std::size_t k = 0;
-        for (const auto &node : parts_.nodes)
-          for (unsigned int c = 0; c < parts_.n_components; ++c, ++k)
-            u[place(k)] = field.value(node, c);
+        const auto evaluate = [&]
+        {
+          std::size_t k = 0;
+          for (const auto &node : parts_.nodes)
+            for (unsigned int c = 0; c < parts_.n_components; ++c, ++k)
+              u[place(k)] = field.value(node, c);
+        };
+        if (parts_.distribution)
+          parts_.distribution->slabs.ranks().together(evaluate);
+        else
+          evaluate();
         return parts_.mass.to_state(u);
       }
 
@@ -71,6 +80,8 @@ namespace plumbline::method
         double sum = 0;
         for (std::size_t i = 0; i < u.size(); ++i)
           sum += u[i] * v[i];
+        if (parts_.distribution)
+          sum = parts_.distribution->slabs.ranks().sum(sum);
         return parts_.unit * sum;
       }
 
@@ -100,6 +111,9 @@ namespace plumbline::method
         return values;
       }
 
+    protected:
+      const LinearParts<dim> &parts() const { return parts_; }
+
     private:
       /// S⁻¹ A S⁻ᵀ x
       void apply(const algebra::Action &action, const State &x, State &out) const
@@ -117,11 +131,41 @@ namespace plumbline::method
       LinearParts<dim> parts_;
       std::size_t n_;
     };
+
+    /// On slabs of nodes.
+    template <int dim>
+    class DistributedLinearMotion : public LinearMotion<dim>, public DistributedMotion
+    {
+    public:
+      explicit DistributedLinearMotion(LinearParts<dim> parts) : LinearMotion<dim>(std::move(parts))
+      {
+      }
+
+      const base::Communicator &ranks() const override { return slabs().ranks(); }
+
+      std::size_t number(std::size_t i) const override
+      {
+        const std::size_t n_own = this->parts().nodes.size(), of_plane = nodes_of_plane();
+        return (i / n_own * slabs().n_planes() + slabs().owned().first) * of_plane + i % n_own;
+      }
+
+      std::vector<double> gather(const std::vector<double> &of_nodes,
+                                 unsigned int n_per_node) const override
+      {
+        return slabs().gather(of_nodes, nodes_of_plane() * n_per_node);
+      }
+
+    private:
+      const base::Slabs &slabs() const { return this->parts().distribution->slabs; }
+      std::size_t nodes_of_plane() const { return this->parts().distribution->plane_size; }
+    };
   } // namespace
 
   template <int dim>
   std::unique_ptr<MotionOf<dim>> move_linear(LinearParts<dim> parts)
   {
+    if (parts.distribution)
+      return std::make_unique<DistributedLinearMotion<dim>>(std::move(parts));
     return std::make_unique<LinearMotion<dim>>(std::move(parts));
   }
 

@@ -1,13 +1,22 @@
 #pragma once
 
 #include "algebra/spectrum.h"
+#include "base/slabs.h"
 #include "method/equation_of_motion.h"
 #include "method/mass_root.h"
 
 #include <functional>
+#include <optional>
 
 namespace plumbline::method
 {
+  /// Nodes in planes that are distributed over ranks.
+  struct NodeSlabs
+  {
+    base::Slabs slabs;
+    std::size_t plane_size = 0; ///< nodes
+  };
+
   /// The parts of a linear equation of motion M ü = load - A u.
   template <int dim>
   struct LinearParts
@@ -24,6 +33,9 @@ namespace plumbline::method
     Driven load;                     ///< M b, less what constrained nodes add to A u
     Driven inertia;  ///< M u of the solution and of constrained nodes: u stands for ü
     double unit = 1; ///< that masses are counted in [length^dim]
+    /// Where ranks share it: all of these are this rank's then, vectors of unknowns have shape
+    /// (n_components, n_nodes), and the motion is a DistributedMotion.
+    std::optional<NodeSlabs> distribution = {};
   };
 
   /// States are Sᵀ u with M = S Sᵀ, so that the tangent of a symmetric A is symmetric.

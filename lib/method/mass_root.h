@@ -1,9 +1,11 @@
 #pragma once
 
 #include "algebra/csr_matrix.h"
+#include "base/slabs.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace plumbline::method
@@ -33,7 +35,9 @@ namespace plumbline::method
     explicit MassRoot(const algebra::CsrMatrix &block, unsigned int n_blocks = 1);
 
     /// @param mass  positive definite: |off| < 1/2, factor > 0
-    explicit MassRoot(const ProductMass &mass);
+    /// @param slabs  of the planes of mass.n[2] nodes: vectors are this rank's then, shape
+    ///               (n_components, n_owned, n[1], n[0]), and functions are collective
+    explicit MassRoot(const ProductMass &mass, const std::optional<base::Slabs> &slabs = {});
     MassRoot(MassRoot &&) noexcept;
     ~MassRoot();
 

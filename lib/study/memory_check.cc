@@ -3,6 +3,7 @@
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
 #include "scene/mesh_in_space.h"
+#include "study/motion_estimate.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 
@@ -221,6 +222,15 @@ namespace plumbline::study
     }
   }
 
+  namespace
+  {
+    bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
+    {
+      return method.is_distributed_in_space(size) &&
+             !(scene.time.is_dynamic() && wants_estimate(scene, method));
+    }
+  } // namespace
+
   Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods)
   {
     if (!scene.domain.mesh.is_lattice())
@@ -228,12 +238,12 @@ namespace plumbline::study
     const method::ProblemSize size = lattice_size(scene, scene.study.series.front().levels.front());
     Methods repeated;
     std::copy_if(methods.begin(), methods.end(), std::back_inserter(repeated),
-                 [&](const auto &method) { return !method->is_distributed_in_space(size); });
+                 [&](const auto &method) { return !is_shared(scene, *method, size); });
     return repeated;
   }
 
   void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
-                              unsigned int n_levels, unsigned int n_jobs)
+                              unsigned int n_levels, unsigned int n_jobs, unsigned int n_ranks)
   {
     // states, energies and nodes; load, constraint and solution at Chebyshev's points in time
     constexpr double n_states = 15, n_points = 33;
@@ -243,9 +253,10 @@ namespace plumbline::study
         for (const auto &method : methods)
         {
           const method::ProblemSize size = lattice_size(scene, series.levels[i]);
+          const unsigned int n = is_shared(scene, *method, size) ? n_ranks : 1;
           const double n_unknowns =
-              size.n_components * size.extents[0] * size.extents[1] * size.depth;
-          require(*method, size, "transient analysis by ", {n_jobs, 1},
+              size.n_components * size.extents[0] * size.extents[1] * std::ceil(size.depth / n);
+          require(*method, size, "transient analysis by ", {n_jobs, n},
                   sizeof(double) * n_vectors * n_unknowns);
         }
   }

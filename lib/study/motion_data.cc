@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
-#include "method/equation_of_motion.h"
+#include "method/distributed_motion.h"
 #include "physics/expression.h"
 #include "scene/problem.h"
 #include "study/comparison.h"
@@ -174,7 +174,7 @@ namespace plumbline::study
       const auto at = [&](double t) { return value(problems.at(t)); };
       return is_steady ? TimeSeries(at(0))
                        : TimeSeries::resolve(at, time.final_time, tolerance, what,
-                                             problems.points_in_time());
+                                             problems.points_in_time(), method::ranks_of(equation));
     };
     const problem::Problem<dim> &first = problems.at(0);
     MotionData<dim> data{{},

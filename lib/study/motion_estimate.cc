@@ -62,6 +62,13 @@ namespace plumbline::study
            (scene.reference.estimate == scene::Estimate::automatic && !is_known);
   }
 
+  void share_motion(const scene::Scene &scene, const Method &method,
+                    method::DiscretisationInSpace &discretisation, const base::Communicator &ranks)
+  {
+    if (ranks.n_ranks() > 1 && !wants_estimate(scene, method))
+      discretisation.distribute(ranks);
+  }
+
   void settle_quadrature(method::Discretisation &discretisation, const problem::Problem<2> &first)
   {
     if (first.is_floating())

@@ -22,6 +22,18 @@ namespace plumbline::study
   /// Galerkin methods, where neither a reference nor a solution is known or all are asked for.
   bool wants_estimate(const scene::Scene &scene, const Method &method);
 
+  /// Nothing is distributed in the plane.
+  inline void share_motion(const scene::Scene &, const Method &, method::Discretisation &,
+                           const base::Communicator &)
+  {
+  }
+
+  /// Leave to each rank a slab, where the motion by the method is distributed over ranks: estimates
+  /// of errors, which compare lattices, are not.
+  /// @note Collective.
+  void share_motion(const scene::Scene &scene, const Method &method,
+                    method::DiscretisationInSpace &discretisation, const base::Communicator &ranks);
+
   /// The state at the final time, exact in time (Runge-Kutta of high order, to 1e-12).
   analysis::State move_exactly(const scene::Scene &scene, const analysis::Transient &transient,
                                const analysis::State &start);

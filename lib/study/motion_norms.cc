@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace plumbline::study
 {
   double norm_of(const std::vector<double> &values, unsigned int n_components, double area,
-                 bool is_largest)
+                 bool is_largest, const base::Communicator &ranks)
   {
     double sum = 0, largest = 0;
     for (std::size_t i = 0; i < values.size(); i += n_components)
@@ -20,8 +21,9 @@ namespace plumbline::study
       sum += square;
       largest = std::max(largest, std::sqrt(square));
     }
-    return is_largest ? largest
-                      : std::sqrt(area * sum * n_components / static_cast<double>(values.size()));
+    return is_largest ? ranks.largest(largest)
+                      : std::sqrt(area * ranks.sum(sum) * n_components /
+                                  ranks.sum(static_cast<double>(values.size())));
   }
 
   double area_of(const problem::Problem<2> &problem)
@@ -43,18 +45,19 @@ namespace plumbline::study
     return static_cast<double>(problem.lattice.size()) * std::pow(problem.h(), 3);
   }
 
-  double extent_of(const std::vector<double> &nodal, unsigned int n_components)
+  double extent_of(const std::vector<double> &nodal, unsigned int n_components,
+                   const base::Communicator &ranks)
   {
     double extent = 0;
     for (unsigned int c = 0; c < n_components; ++c)
     {
-      double low = nodal[c], high = nodal[c];
+      double low = std::numeric_limits<double>::infinity(), high = -low;
       for (std::size_t i = c; i < nodal.size(); i += n_components)
       {
         low = std::min(low, nodal[i]);
         high = std::max(high, nodal[i]);
       }
-      extent = std::max(extent, high - low);
+      extent = std::max(extent, ranks.largest(high) + ranks.largest(-low));
     }
     return extent;
   }

@@ -5,6 +5,7 @@
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "study/motion_data.h"
+#include "study/motion_estimate.h"
 #include "study/transient.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ namespace plumbline::study
   {
     template <int dim>
     void check_steps(const scene::Scene &scene, const Method &method,
-                     const problem::Problem<dim> &problem)
+                     const problem::Problem<dim> &problem, const base::Communicator &ranks)
     {
       decltype(discretise(method, problem)) discretisation;
       try
@@ -54,6 +55,7 @@ namespace plumbline::study
       {
         return; // a finding of the run
       }
+      share_motion(scene, method, *discretisation, ranks);
       const auto equation = discretisation->motion(scene.time.is_lumped);
       if (!equation)
         throw InputError("Time/final time = " + base::to_text(scene.time.final_time, 4) + ": " +
@@ -98,7 +100,8 @@ namespace plumbline::study
     }
   } // namespace
 
-  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels)
+  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels,
+                       const base::Communicator &ranks)
   {
     for (const std::string &name : scene.time.schemes)
       try
@@ -114,8 +117,8 @@ namespace plumbline::study
       const scene::Scene here = at_level(scene, level);
       for (const auto &method : methods)
         here.domain.is_in_space()
-            ? check_steps(here, *method, make_problem_in_space(here, 0, level))
-            : check_steps(here, *method, make_problem(here, 0, level));
+            ? check_steps(here, *method, make_problem_in_space(here, 0, level), ranks)
+            : check_steps(here, *method, make_problem(here, 0, level), ranks);
     };
     if (!scene.is_steady()) // else it would be said when much is done
       scene.domain.is_in_space() ? check_times<3>(scene) : check_times<2>(scene);

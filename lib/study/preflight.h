@@ -39,11 +39,14 @@ namespace plumbline::study
 
   /// The same of transient analyses in space: their vectors besides what a static solution takes.
   /// Accuracy: within a factor of 2 of the memory measured at 64³ and 96³ cells.
+  /// @param n_ranks  that share what methods distribute in space
   /// @pre scene.domain.is_in_space()
   void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
-                              unsigned int n_levels, unsigned int n_jobs = 1);
+                              unsigned int n_levels, unsigned int n_jobs = 1,
+                              unsigned int n_ranks = 1);
 
-  /// Those of the methods whose static solutions in space are not distributed over ranks.
+  /// Those of the methods whose solutions of the scene are not distributed over ranks: static ones,
+  /// or motions if it has a time.
   /// @pre scene.domain.is_in_space()
   Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods);
 

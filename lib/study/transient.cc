@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
+#include "method/distributed_motion.h"
 #include "study/motion_data.h"
 #include "study/motion_estimate.h"
 #include "study/motion_norms.h"
@@ -95,6 +96,20 @@ namespace plumbline::study
       return result;
     }
 
+    std::vector<dealii::Point<3>> gather(const method::DistributedMotion &shared,
+                                         const std::vector<dealii::Point<3>> &nodes)
+    {
+      Vector coordinates;
+      for (const auto &node : nodes)
+        for (unsigned int d = 0; d < 3; ++d)
+          coordinates.push_back(node[d]);
+      coordinates = shared.gather(coordinates, 3);
+      std::vector<dealii::Point<3>> result;
+      for (std::size_t i = 0; i < coordinates.size(); i += 3)
+        result.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+      return result;
+    }
+
     /// A method on one case at one level, by all schemes and steps.
     template <int dim>
     class CaseOfMethod
@@ -168,14 +183,17 @@ namespace plumbline::study
         const problem::Problem<dim> &first = problems_.at(0);
         area_ = area_of(first);
         discretisation_ = discretise(method_, first);
+        share_motion(scene_, method_, *discretisation_, options_.ranks);
         settle_quadrature(*discretisation_, first);
         equation_ = discretisation_->motion(scene_.time.is_lumped);
         if (!equation_)
           throw NumericalError("the method has no equation of motion here");
+        ranks_ = method::ranks_of(*equation_);
         data_.emplace(motion_data(scene_, *equation_, problems_));
         transient_.emplace(*equation_, data_->drive, scene_.time.density, scene_.time.damping);
         describe();
-        of_method_.cost.setup_seconds = timer.seconds() - (problems_.seconds() - shared);
+        of_method_.cost.setup_seconds =
+            ranks_.sum(timer.seconds() - (problems_.seconds() - shared));
         solve_reference();
         const bool is_estimated = wants_estimate(scene_, method_);
         if (is_estimated || has_orders())
@@ -239,14 +257,13 @@ namespace plumbline::study
         double watching = 0; // CPU seconds of what the scheme itself does not do
         unsigned int n_frames = 0;
         const base::CpuTimer timer;
-        const auto show = [&](const State &now)
+        const auto show_due = [&](const State &now)
         {
           const double due = time.final_time * n_frames / std::max(1u, time.n_frames - 1);
           if (!is_shown || !options_.on_frame || n_frames >= time.n_frames ||
               now.t < due - .5 * step)
             return;
-          options_.on_frame(record, {now.t, in_space(equation_->nodes()), equation_->n_components(),
-                                     equation_->nodal(now.u), equation_->nodal(now.v)});
+          show(record, now);
           ++n_frames;
         };
         analysis::Curve errors{{"time", "time", {}}, {"error", "", {}}};
@@ -258,7 +275,7 @@ namespace plumbline::study
         };
         if (data_->exact)
           add_error(state);
-        show(state);
+        show_due(state);
         watching = timer.seconds();
         try
         {
@@ -270,7 +287,7 @@ namespace plumbline::study
                                     const double before = timer.seconds();
                                     if (log.observe(now) && data_->exact)
                                       add_error(now);
-                                    show(now);
+                                    show_due(now);
                                     watching += timer.seconds() - before;
                                   });
           record.set("time steps", static_cast<double>(counts.n_steps));
@@ -282,12 +299,32 @@ namespace plumbline::study
         {
           record.failure = error.what();
         }
-        record.cost.solve_seconds = timer.seconds() - watching;
+        record.cost.solve_seconds = ranks_.sum(timer.seconds() - watching);
         add_energies(record, log);
         if (data_->exact)
           record.curves["error"] = std::move(errors);
         if (record.failure.empty())
           compare(record, state);
+      }
+
+      /// On the first rank, of all nodes.
+      void show(const Record &record, const State &now) const
+      {
+        const unsigned int n = equation_->n_components();
+        std::vector<dealii::Point<3>> nodes = in_space(equation_->nodes());
+        Vector u = equation_->nodal(now.u), v = equation_->nodal(now.v);
+        if (const auto *const shared = method::distributed(*equation_))
+        {
+          u = shared->gather(u, n);
+          v = shared->gather(v, n);
+          nodes = gather(*shared, nodes);
+        }
+        options_.ranks.together(
+            [&]
+            {
+              if (options_.ranks.rank() == 0)
+                options_.on_frame(record, {now.t, std::move(nodes), n, std::move(u), std::move(v)});
+            });
       }
 
       static void add_energies(Record &record, const analysis::EnergyLog &log)
@@ -314,13 +351,13 @@ namespace plumbline::study
       double error_of(const Vector &state, const Vector &exact, scene::Norm norm) const
       {
         return norm_of(difference(equation_->nodal(state), exact), equation_->n_components(), area_,
-                       is_largest(norm));
+                       is_largest(norm), ranks_);
       }
 
       void compare(Record &record, const State &end) const
       {
         const Vector u = equation_->nodal(end.u);
-        record.set("extent of u", extent_of(u, equation_->n_components()));
+        record.set("extent of u", extent_of(u, equation_->n_components(), ranks_));
         const auto against = [&](scene::Target target, const Vector &exact_u, const Vector &exact_v)
         {
           for (const scene::Norm norm : scene_.study.norms)
@@ -382,6 +419,7 @@ namespace plumbline::study
       decltype(discretise(std::declval<const Method &>(),
                           std::declval<const problem::Problem<dim> &>())) discretisation_;
       std::unique_ptr<const method::MotionOf<dim>> equation_;
+      base::Communicator ranks_ = base::Communicator::alone(); ///< that have a part of it each
       std::optional<MotionData<dim>> data_;
       std::optional<Transient> transient_;
       const TorusSolution *torus_ = nullptr;
@@ -408,15 +446,17 @@ namespace plumbline::study
   Analysis transient_analysis(const Methods &available, const TransientOptions &options)
   {
     Analysis analysis{"dynamics", "Transient analysis"};
-    analysis.choose_methods = [](const scene::Scene &scene, const Methods &all,
-                                 unsigned int n_levels, unsigned int n_jobs)
+    analysis.choose_methods = [ranks = options.ranks](const scene::Scene &scene, const Methods &all,
+                                                      unsigned int n_levels, unsigned int n_jobs)
     {
       Methods methods = study::choose_methods(scene, all);
       if (scene.domain.is_in_space())
-        check_memory_of_motion(scene, methods, n_levels, n_jobs);
+        check_memory_of_motion(scene, methods, n_levels, n_jobs, ranks.n_ranks());
       return methods;
     };
-    analysis.check = check_transient;
+    analysis.check = [ranks = options.ranks](const scene::Scene &scene, const Methods &methods,
+                                             unsigned int n_levels)
+    { check_transient(scene, methods, n_levels, ranks); };
     analysis.analyse = [available, options](const Place &place, const Method &method)
     {
       for (unsigned int c = 0; c < place.scene().problem.case_names().size(); ++c)

@@ -18,7 +18,11 @@ namespace plumbline::study
   struct TransientOptions
   {
     bool keeps_end = false; ///< u at the final time: the field "displacement" of each record
-    std::function<void(const Record &, const Frame &)> on_frame = {}; ///< where Time/frames asks
+    /// Where Time/frames asks for states, on the first rank.
+    std::function<void(const Record &, const Frame &)> on_frame = {};
+    /// That make the study together: in three dimensions they share what methods distribute, see
+    /// repeated_by_ranks(); of everything else each of them does all.
+    base::Communicator ranks = base::Communicator::alone();
   };
 
   /// All schemes and time steps of a scene by each method: a record each, whose variant says which
@@ -32,8 +36,10 @@ namespace plumbline::study
 
   /// What can be refused before anything is solved: schemes that are not known or that a method
   /// cannot do, steps beyond the critical one at the finest levels.
+  /// @param ranks  as in TransientOptions
   /// @throws InputError  naming the key, and the critical step
-  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels);
+  void check_transient(const scene::Scene &scene, const Methods &methods, unsigned int n_levels,
+                       const base::Communicator &ranks = base::Communicator::alone());
 
   inline const std::string time_error = "nodal L2 | time";
 

@@ -115,6 +115,41 @@ TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
   fs::remove_all(folder);
 }
 
+TEST(Ranks, share_motions_in_space_and_say_which_methods_do_not)
+{
+  const fs::path folder = temporary("ranks");
+  const std::string cube =
+      write("ranks_motion.prm", "subsection Domain\n set dimension = 3\n"
+                                " set boxes = 0,0,0 : 1,1,1\nend\n"
+                                "subsection Problem\n set solution = x*y + z^2\nend\n"
+                                "subsection Time\n set final time = 0.1\n set frames = 2\n"
+                                " set initial velocity = x*z\nend\n"
+                                "subsection Methods\n set names = FA, Q1\nend\n"
+                                "subsection Study\n set h = 1/4\n set norms = nodal L2\n"
+                                " set decisive error = nodal L2 | exact\nend\n") +
+      " --threads 1 --quiet -o " + folder.string();
+  Outcome outcome = run_on_two_ranks("run " + cube);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  expect_found(read(folder / "dynamics.json"),
+               "\"work of ranks\": \"distributed in slabs of cells along z\"");
+  std::size_t n_frames = 0;
+  for (const auto &entry : fs::directory_iterator(folder / "frames"))
+    n_frames += entry.path().extension() == ".vtu" ? 1 : 0;
+  EXPECT_EQ(n_frames, 4u);
+  fs::remove_all(folder);
+  outcome = run_on_two_ranks("run " + cube + " --methods FA,Q2");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work of Q2; "), 1u)
+      << outcome.err;
+  expect_found(read(folder / "dynamics.json"),
+               "\"work of ranks\": \"repeated by each: Q2; others distributed in slabs");
+  fs::remove_all(folder);
+  EXPECT_EQ(run_on_two_ranks("run " + cube + " --methods Q2").exit_code, 0);
+  expect_found(read(folder / "dynamics.json"), "\"work of ranks\": \"all by the first rank");
+  fs::remove_all(folder);
+}
+
 TEST(Ranks, refuse_with_one_voice)
 {
   const Outcome outcome =

@@ -297,6 +297,9 @@ TEST(StaticsInSpace, and_motions_are_refused_without_the_memory_they_need)
   const Methods methods = choose_methods(make_scene({}), available());
   check_memory_of_motion(huge, methods, 1);
   EXPECT_THROW(check_memory_of_motion(huge, methods, 0), InputError);
+  const Methods shared = choose_methods(make_scene({{"Methods/names", "FA, Q1"}}), available());
+  EXPECT_THROW(check_memory_of_motion(huge, shared, 0), InputError);
+  check_memory_of_motion(huge, shared, 0, 1, 700); // a plane on each rank
 }
 
 TEST(StateBasedInSpace, are_exact_where_the_moments_are_those_of_the_field)
