@@ -151,6 +151,20 @@ TEST(DistributedStatics, are_for_solids_on_any_box)
                            "FA; Q1;");
 }
 
+TEST(DistributedStatics, are_for_state_based_solids)
+{
+  expect_same_on_all_ranks({{"Methods/names", "IPA-AC-R2, Q1"},
+                            {"Reference/estimate", "none"},
+                            {"Study/h", "1/4"},
+                            {"Kernel/type", "1/r"},
+                            {"Kernel/limit", "Navier"},
+                            {"Material/model", "LPS"},
+                            {"Material/E", "2"},
+                            {"Material/nu", "0.4"},
+                            {"Problem/solution", "x^2 + y*z^3, z^2, x*y"}},
+                           "IPA-AC-R2; Q1;");
+}
+
 TEST(DistributedStatics, are_beside_methods_whose_work_is_repeated)
 {
   expect_same_on_all_ranks({{"Methods/names", "Q1, Q2"}, {"Study/h", "1/4"}}, "Q1;");
