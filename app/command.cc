@@ -125,6 +125,8 @@ namespace
     run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
     run.add_flag("--quiet", options->quiet, "Print nothing but errors");
     run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
+    run.add_flag("--estimate", options->is_estimate,
+                 "Print the memory that each rank would take by method and level, and run nothing");
     set_action(run, request, options, plumbline::app::run, true);
   }
 

@@ -68,9 +68,8 @@ namespace plumbline::app
   {
     const base::Communicator all = base::Communicator::all();
     const method::Methods methods = study::choose_methods(scene, all_methods());
-    const method::Methods repeated = scene.domain.is_in_space()
-                                         ? study::repeated_by_ranks(scene, methods)
-                                         : methods;
+    const method::Methods repeated =
+        scene.domain.is_in_space() ? study::repeated_by_ranks(scene, methods) : methods;
     const bool is_shared = repeated.size() < methods.size();
     if (!is_shared && all.rank() != 0)
       return 0; // the first one does the work

@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "dynamics.h"
+#include "estimate.h"
 #include "io/point_values.h"
 #include "io/record_journal.h"
 #include "methods.h"
@@ -105,6 +106,8 @@ namespace plumbline::app
   {
     end_at_interrupts();
     const scene::Scene scene = read(options);
+    if (options.is_estimate)
+      return print_estimate(options, scene);
     if (scene.time.is_dynamic())
     {
       check_analysis(scene, scene::Analysis::transient);

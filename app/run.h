@@ -6,10 +6,12 @@ namespace plumbline::app
 {
   struct RunOptions : AnalyseOptions
   {
-    std::string model; ///< smallest or full, instead of the scene's
+    std::string model;        ///< smallest or full, instead of the scene's
+    bool is_estimate = false; ///< print the memory it would take, and run nothing
   };
 
   /// Run a scene, write its report, print the verdicts.
+  /// With is_estimate nothing is run, see print_estimate().
   /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (a method fails that the
   ///         scene does not expect to, or charts could not be drawn), 130 (interrupted; what is
   ///         finished is written)

@@ -3,6 +3,7 @@
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
 #include "scene/mesh_in_space.h"
+#include "study/memory_estimate.h"
 #include "study/motion_estimate.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
@@ -111,14 +112,15 @@ namespace plumbline::study
       unsigned int n_ranks; ///< that share what is distributed
     };
 
-    /// @param more  bytes, besides those of a static solution
-    void require(const Method &method, const method::ProblemSize &size, const std::string &what,
-                 const Processes &processes, double more = 0)
+    /// @param is_shared  by ranks
+    /// @param more       bytes, besides those of a static solution
+    MemoryEstimate estimate(const Method &method, const method::ProblemSize &size,
+                            const std::string &what, unsigned int n_ranks, bool is_shared,
+                            double more)
     {
       method::ProblemSize of_rank = size;
-      const bool is_shared = processes.n_ranks > 1 && method.is_distributed_in_space(size);
       if (is_shared)
-        of_rank.depth = std::ceil(size.depth / processes.n_ranks);
+        of_rank.depth = std::ceil(size.depth / n_ranks);
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
@@ -129,31 +131,49 @@ namespace plumbline::study
       else
         text << "some " << std::round(size.n_cells) << " cells)";
       if (is_shared)
-        text << " on each of " << processes.n_ranks << " ranks";
+        text << " on each of " << n_ranks << " ranks";
       const bool is_of_centroids =
           size.depth > 0 && size.n_cells > 0 && method.family() == method::MethodFamily::meshfree;
-      base::require_memory(
-          method.expected_bytes(is_of_centroids ? of_centroids(of_rank) : of_rank) + more,
-          text.str(),
-          "choose a larger h or a smaller horizon (Study/h, Study/m, "
-          "Study/horizon), run the first levels only (--levels), or leave this "
-          "method out (--methods)",
-          processes.n_jobs);
+      return {text.str(), is_shared,
+              method.expected_bytes(is_of_centroids ? of_centroids(of_rank) : of_rank) + more};
     }
 
-    /// With what an estimate of its error solves besides.
-    void require_estimate(const scene::Scene &scene, const Method &method,
-                          const method::ProblemSize &size, const Processes &processes)
+    MemoryEstimate estimate_solution(const Method &method, const method::ProblemSize &size,
+                                     const std::string &what, unsigned int n_ranks)
     {
+      return estimate(method, size, what, n_ranks,
+                      n_ranks > 1 && method.is_distributed_in_space(size), 0);
+    }
+
+    void require(const MemoryEstimate &estimate, unsigned int n_jobs)
+    {
+      base::require_memory(estimate.bytes, estimate.what,
+                           "choose a larger h or a smaller horizon (Study/h, Study/m, "
+                           "Study/horizon), run the first levels only (--levels), or leave this "
+                           "method out (--methods)",
+                           n_jobs);
+    }
+
+    /// Of a solution, and of what an estimate of its error solves besides.
+    std::vector<MemoryEstimate> estimate_all(const scene::Scene &scene, const Method &method,
+                                             const method::ProblemSize &size, unsigned int n_ranks)
+    {
+      std::vector<MemoryEstimate> found = {estimate_solution(method, size, "", n_ranks)};
+      if (!is_estimated(scene, method) && (method.name() != scene.reference.method ||
+                                           scene.reference.estimate == scene::Estimate::none))
+        return found;
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
-        require(method, at_level(size, {size.level.h / 2, size.level.horizon}), what, processes);
+        found.push_back(estimate_solution(
+            method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_ranks));
       if (const auto higher = method.higher_degree();
           higher && size.is_lattice() && !scene.domain.is_in_space())
-        require(*higher, size, what, processes);
+        found.push_back(estimate_solution(*higher, size, what, n_ranks));
+      return found;
     }
 
-    /// Of a level, measured: the coarsest one, from which that of finer ones follows.
+    /// Of a level, measured: the coarsest one, from which that of finer ones
+    /// follows.
     method::ProblemSize measured_size(const scene::Scene &scene, const problem::Level &level)
     {
       if (scene.domain.is_in_space() && scene.domain.mesh.is_file())
@@ -187,12 +207,35 @@ namespace plumbline::study
                      const method::ProblemSize &size, const Processes &processes)
     {
       for (const auto &method : methods)
-      {
-        require(*method, size, "", processes);
-        if (is_estimated(scene, *method) || (method->name() == scene.reference.method &&
-                                             scene.reference.estimate != scene::Estimate::none))
-          require_estimate(scene, *method, size, processes);
-      }
+        for (const MemoryEstimate &one : estimate_all(scene, *method, size, processes.n_ranks))
+          require(one, processes.n_jobs);
+    }
+
+    bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
+    {
+      return method.is_distributed_in_space(size) &&
+             !(scene.time.is_dynamic() && wants_estimate(scene, method));
+    }
+
+    MemoryEstimate estimate_motion(const scene::Scene &scene, const Method &method,
+                                   const problem::Level &level, unsigned int n_ranks)
+    {
+      // states, energies and nodes; load, constraint and solution at Chebyshev's
+      // points in time
+      constexpr double n_states = 15, n_points = 33;
+      const double n_vectors = n_states + (scene.is_steady() ? 3 : 3 * n_points);
+      const method::ProblemSize size = lattice_size(scene, level);
+      const bool is_of_all = n_ranks > 1 && is_shared(scene, method, size);
+      const double n_unknowns = size.n_components * size.extents[0] * size.extents[1] *
+                                std::ceil(size.depth / (is_of_all ? n_ranks : 1));
+      return estimate(method, size, "transient analysis by ", n_ranks, is_of_all,
+                      sizeof(double) * n_vectors * n_unknowns);
+    }
+
+    std::size_t n_run(const problem::Series &series, unsigned int n_levels)
+    {
+      return n_levels == 0 ? series.levels.size()
+                           : std::min<std::size_t>(n_levels, series.levels.size());
     }
   } // namespace
 
@@ -205,10 +248,7 @@ namespace plumbline::study
     const method::ProblemSize coarse =
         measured_size(scene, scene.study.series.front().levels.front());
     for (const auto &series : scene.study.series)
-    {
-      const std::size_t n = n_levels == 0 ? series.levels.size()
-                                          : std::min<std::size_t>(n_levels, series.levels.size());
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < n_run(series, n_levels); ++i)
         try
         {
           require_all(scene, all, at_level(coarse, series.levels[i]), {n_jobs, n_ranks});
@@ -219,17 +259,7 @@ namespace plumbline::study
             throw;
           require_all(scene, all, of_same_cells(coarse, series.levels[i]), {n_jobs, n_ranks});
         }
-    }
   }
-
-  namespace
-  {
-    bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
-    {
-      return method.is_distributed_in_space(size) &&
-             !(scene.time.is_dynamic() && wants_estimate(scene, method));
-    }
-  } // namespace
 
   Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods)
   {
@@ -245,19 +275,43 @@ namespace plumbline::study
   void check_memory_of_motion(const scene::Scene &scene, const Methods &methods,
                               unsigned int n_levels, unsigned int n_jobs, unsigned int n_ranks)
   {
-    // states, energies and nodes; load, constraint and solution at Chebyshev's points in time
-    constexpr double n_states = 15, n_points = 33;
-    const double n_vectors = n_states + (scene.is_steady() ? 3 : 3 * n_points);
     for (const auto &series : scene.study.series)
-      for (std::size_t i = 0; i < series.levels.size() && (n_levels == 0 || i < n_levels); ++i)
+      for (std::size_t i = 0; i < n_run(series, n_levels); ++i)
         for (const auto &method : methods)
-        {
-          const method::ProblemSize size = lattice_size(scene, series.levels[i]);
-          const unsigned int n = is_shared(scene, *method, size) ? n_ranks : 1;
-          const double n_unknowns =
-              size.n_components * size.extents[0] * size.extents[1] * std::ceil(size.depth / n);
-          require(*method, size, "transient analysis by ", {n_jobs, n},
-                  sizeof(double) * n_vectors * n_unknowns);
-        }
+          require(estimate_motion(scene, *method, series.levels[i], n_ranks), n_jobs);
+  }
+
+  namespace
+  {
+    /// The largest one of a level.
+    MemoryEstimate estimate_level(const scene::Scene &scene, const Method &method,
+                                  const method::ProblemSize &coarse, bool has_same_cells,
+                                  const problem::Level &level, unsigned int n_ranks)
+    {
+      if (scene.time.is_dynamic() && scene.domain.is_in_space())
+        return estimate_motion(scene, method, level, n_ranks);
+      const auto all = estimate_all(
+          scene, method, has_same_cells ? of_same_cells(coarse, level) : at_level(coarse, level),
+          n_ranks);
+      return *std::max_element(all.begin(), all.end(),
+                               [](const MemoryEstimate &a, const MemoryEstimate &b)
+                               { return a.bytes < b.bytes; });
+    }
+  } // namespace
+
+  std::vector<MemoryOfLevel> estimate_memory(const scene::Scene &scene, const Methods &methods,
+                                             unsigned int n_levels, unsigned int n_ranks)
+  {
+    const method::ProblemSize coarse =
+        measured_size(scene, scene.study.series.front().levels.front());
+    const bool has_same_cells = scene.domain.mesh.is_file() && !follows_h(scene, coarse);
+    std::vector<MemoryOfLevel> found;
+    for (const auto &method : methods)
+      for (const auto &series : scene.study.series)
+        for (std::size_t i = 0; i < n_run(series, n_levels); ++i)
+          found.push_back(
+              {method->name(), series.name, series.levels[i],
+               estimate_level(scene, *method, coarse, has_same_cells, series.levels[i], n_ranks)});
+    return found;
   }
 } // namespace plumbline::study

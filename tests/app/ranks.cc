@@ -150,6 +150,29 @@ TEST(Ranks, share_motions_in_space_and_say_which_methods_do_not)
   fs::remove_all(folder);
 }
 
+TEST(Ranks, are_told_the_memory_of_each_before_the_run)
+{
+  const fs::path folder = temporary("ranks");
+  const std::string cube =
+      "run " +
+      write("ranks_estimate.prm", "subsection Domain\n set dimension = 3\n"
+                                  " set boxes = 0,0,0 : 1,1,1\nend\n"
+                                  "subsection Problem\n set solution = x*y + z^2\nend\n"
+                                  "subsection Methods\n set names = FA, Q2\nend\n"
+                                  "subsection Study\n set h = 1/4, 1/32\nend\n") +
+      " --estimate -o " + folder.string();
+  const Outcome shared = run_on_two_ranks(cube + " --levels 1");
+  EXPECT_EQ(shared.exit_code, 0) << shared.err;
+  EXPECT_EQ(count(shared.out, "estimated peak memory of each of 2 ranks"), 1u) << shared.out;
+  EXPECT_EQ(count(shared.out, "(4 x 4 x 4 cells) on each of 2 ranks"), 1u) << shared.out; // FA
+  EXPECT_EQ(count(shared.out, "(32 x 32 x 32 cells)"), 0u) << shared.out;
+  EXPECT_FALSE(fs::exists(folder));
+  const Outcome alone = run(cube);
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(count(alone.out, "(32 x 32 x 32 cells)"), 2u) << alone.out;
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST(Ranks, refuse_with_one_voice)
 {
   const Outcome outcome =

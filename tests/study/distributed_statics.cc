@@ -1,5 +1,6 @@
 // Static solutions in space on many ranks: errors, estimates, maps, values and files are those of
 // one rank.
+#include "study/memory_estimate.h"
 #include "tests/study/space_scene.h"
 
 #include <gtest/gtest.h>
@@ -168,6 +169,29 @@ TEST(DistributedStatics, are_for_state_based_solids)
 TEST(DistributedStatics, are_beside_methods_whose_work_is_repeated)
 {
   expect_same_on_all_ranks({{"Methods/names", "Q1, Q2"}, {"Study/h", "1/4"}}, "Q1;");
+}
+
+TEST(DistributedStatics, take_the_memory_that_is_estimated)
+{
+  // within a factor of 2, see Method::expected_bytes, where it is not little
+  const Communicator ranks = Communicator::all();
+  const scene::Scene scene = make_scene({{"Methods/names", "Q1"},
+                                         {"Problem/solution", "x^2 + y*z"},
+                                         {"Study/h", "1/80"},
+                                         {"Study/norms", "nodal Linf"}});
+  const Methods all = available(), methods = choose_methods(scene, all);
+  StaticsOptions options;
+  options.ranks = ranks;
+  RunControl control;
+  control.ranks = ranks;
+  const StudyResults results = run_study(statics_analysis(all, options), scene, methods, control);
+  const double measured = static_cast<double>(results.records.front().cost.peak_bytes);
+  const auto estimated = [&](unsigned int n_ranks)
+  { return estimate_memory(scene, methods, 0, n_ranks).front().largest.bytes; };
+  EXPECT_LT(estimated(ranks.n_ranks()), 2 * measured);
+  EXPECT_GT(estimated(ranks.n_ranks()), measured / 2);
+  for (const unsigned int n_ranks : {2u, 4u, 8u})
+    EXPECT_LT(estimated(n_ranks), .65 * estimated(n_ranks / 2)); // halves, and halos
 }
 
 TEST(DistributedStatics, count_scattered_nodes_once)
