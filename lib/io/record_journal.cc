@@ -59,17 +59,23 @@ namespace plumbline::io
   void RecordJournal::append(const study::StudyResults &made)
   {
     constexpr int in_one_line = -1;
+    std::string text = head_;
     study::StudyResults line;
     if (!head_.empty())
     {
       line = made;
       line.records.clear();
       study::for_each_statement_list([&](auto list) { (line.*list).clear(); });
+    }
+    if (!head_.empty() && !earlier_.records.empty()) // in a line of their own
+    {
       earlier_.left_out.clear(); // what can be afforded is asked again
       add(line, earlier_);
+      text += to_json(line, in_one_line);
+      line = {};
     }
     add(line, made);
-    lines_.append(head_ + to_json(line, in_one_line));
+    lines_.append(text + to_json(line, in_one_line));
     head_.clear();
   }
 
