@@ -489,19 +489,23 @@ namespace plumbline::reference
         const PlaneSide<Real> &side = sides_[k];
         is_inside = is_inside && side.kappa >= 0;
         state.kappa = side.kappa;
-        if (side.kappa == 0) // as if the foot were just inside
+        if (side.kappa == 0) // of which nothing is seen, but the foot may be on it
         {
-          state.see(side.from, side.to);
+          state.is_subtracted = true;
           continue;
         }
         const Real eta = side.kappa * side.kappa + distance_ * distance_;
         const Real square = part.end() * part.end() - eta;
-        if (!(square > 0))
+        const Real reach = square > 0 ? sqrt(square) : Real(0),
+                   from = std::max(side.from, Real(-reach)), to = std::min(side.to, reach);
+        if (!(from < to))
+        {
+          state.leave(side.from, side.to);
           continue;
-        const Real reach = sqrt(square), from = std::max(side.from, Real(-reach)),
-                   to = std::min(side.to, reach);
-        if (from < to)
-          add_compact_piece(state, from, to, 0, sum);
+        }
+        state.leave(side.from, from);
+        add_compact_piece(state, from, to, 0, sum);
+        state.leave(to, side.to);
       }
       finish(state, is_inside, sum);
     }
@@ -510,16 +514,17 @@ namespace plumbline::reference
     {
       const PotentialPart<Real> &part;
       Real foot = 0, kappa = 0;
-      Real seen = 0; ///< the angle of pieces from which H(d) is subtracted
+      Real left = 0; ///< the angle of pieces from which H(d) is not subtracted
       bool is_subtracted = false;
 
-      void see(const Real &from, const Real &to)
+      void leave(const Real &from, const Real &to)
       {
         using std::abs;
         using std::atan2;
+        if (!(from < to))
+          return;
         const Real angle = atan2(to, abs(kappa)) - atan2(from, abs(kappa));
-        is_subtracted = is_subtracted || angle != 0;
-        seen += kappa < 0 ? Real(-angle) : angle;
+        left += kappa < 0 ? Real(-angle) : angle;
       }
     };
 
@@ -563,17 +568,21 @@ namespace plumbline::reference
         total += rule.weights[q] * values[q] / squares[q];
       sum.add(total * half * state.kappa);
       if (is_subtracted)
-        state.see(from, to);
+        state.is_subtracted = true;
+      else
+        state.leave(from, to);
     }
 
-    /// Subtracts H(d) times the angle that is left of the whole, which is 2π or 0.
+    /// Subtracts H(d) times the angle that is left. The whole is 2π or 0, but neither is known if
+    /// the foot is on a side; then H(d) is subtracted there.
     void finish(const Compact &state, bool is_inside, Sum<Real> &sum) const
     {
       using std::atan2;
       static const Real turn = 8 * atan2(Real(1), Real(1));
-      if (!is_inside && !state.is_subtracted)
-        return;
-      sum.add(state.foot * (state.seen - (is_inside ? turn : Real(0))));
+      if (state.is_subtracted)
+        sum.add(-state.foot * state.left);
+      else if (is_inside)
+        sum.add(-state.foot * turn);
     }
 
     static constexpr unsigned int most_depth = 60;

@@ -238,6 +238,26 @@ TEST(ExactPairs, across_the_horizon_add_up_over_parts_of_faces)
       }
 }
 
+// A vertex is straight above one of the other face, or a side, as in lattices, to a rounding.
+TEST(ExactPairs, across_the_horizon_may_have_feet_on_vertices_and_sides)
+{
+  const double third = 1. / 3;
+  const Triangle x = {Point<3>(5 * third, 7 * third, 1), Point<3>(5 * third, 7 * third, 4 * third),
+                      Point<3>(2, 7 * third, 4 * third)};
+  for (const Kind kind : {Kind::biharmonic, Kind::harmonic})
+    for (const double slide : {0., .5 * third})
+    {
+      const auto kernel = kernel_of("constant");
+      const PairFace f(x, {0, 1, 2}),
+          g({Point<3>(1.339940, 1.326934, .723491), Point<3>(1.617466, 1.718092, .707932),
+             Point<3>(5 * third, 5 * third, 1 + slide)},
+            {3, 4, 5});
+      const FacePotential potential(kernel, kind);
+      const double expected = FacePairs(potential, 4)(f, g);
+      EXPECT_NEAR(ExactPairs(kernel, kind, any_error)(f, g).value, expected, .1 * expected);
+    }
+}
+
 TEST(ExactPairs, of_nearly_parallel_faces_take_the_digits_that_they_need)
 {
   // a triangle about an axis in its plane, above another; and turned so that an edge stays parallel
