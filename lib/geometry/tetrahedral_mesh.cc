@@ -63,6 +63,36 @@ namespace plumbline::geometry
     return static_cast<int>(std::ceil(horizon / h - rounding));
   }
 
+  namespace
+  {
+    /// Vertices with all cells in the collar, but not those on the sides of the box about the mesh.
+    std::vector<char> vertices_around(const TetrahedralMesh &mesh)
+    {
+      dealii::Point<3> lower = mesh.vertices.front(), upper = lower;
+      for (const dealii::Point<3> &x : mesh.vertices)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          lower[d] = std::min(lower[d], x[d]);
+          upper[d] = std::max(upper[d], x[d]);
+        }
+      constexpr double off = 1e-6; // of the box; rounding
+      std::vector<char> is_around;
+      for (const dealii::Point<3> &x : mesh.vertices)
+      {
+        bool is_clear = true;
+        for (unsigned int d = 0; d < 3; ++d)
+          is_clear =
+              is_clear && std::min(x[d] - lower[d], upper[d] - x[d]) > off * (upper[d] - lower[d]);
+        is_around.push_back(is_clear ? 1 : 0);
+      }
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+        for (const unsigned int vertex : mesh.cells[cell])
+          if (mesh.is_inside[cell] != 0)
+            is_around[vertex] = 0;
+      return is_around;
+    }
+  } // namespace
+
   TetrahedralMesh with_moved_vertices(TetrahedralMesh mesh, double most, unsigned int seed)
   {
     constexpr double least_share = .1;
@@ -75,13 +105,10 @@ namespace plumbline::geometry
       for (const unsigned int vertex : mesh.cells[cell])
         cells[vertex].push_back(cell);
     }
-    const std::vector<char> is_inner = inner_vertices(mesh);
     std::mt19937 random(seed);
     const auto draw = [&] { return most * (2 * (random() * 0x1p-32) - 1); };
-    for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
+    const auto move_vertex = [&](std::size_t vertex)
     {
-      if (is_inner[vertex] == 0)
-        continue;
       const dealii::Point<3> place = mesh.vertices[vertex];
       dealii::Tensor<1, 3> move;
       for (unsigned int d = 0; d < 3; ++d)
@@ -97,7 +124,11 @@ namespace plumbline::geometry
         mesh.vertices[vertex] = place + (move /= 2);
       if (!is_good())
         mesh.vertices[vertex] = place;
-    }
+    };
+    for (const std::vector<char> &is_moved : {inner_vertices(mesh), vertices_around(mesh)})
+      for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
+        if (is_moved[vertex] != 0)
+          move_vertex(vertex);
     return mesh;
   }
 

@@ -30,9 +30,11 @@ namespace plumbline::geometry
   /// Layers of cubes as wide as the horizon.
   int layers_within(double horizon, double h);
 
-  /// The mesh with each vertex inside Ω moved by up to `most` along each axis, uniformly, with a
-  /// seed, the same on every machine. A move is halved until no cell is left with less than a tenth
-  /// of its volume.
+  /// The mesh with each vertex inside Ω, and inside its collar, moved by up to `most` along each
+  /// axis, uniformly, with a seed, the same on every machine; those on the surface of Ω and of the
+  /// box that holds the mesh stay. A move is halved until no cell is left with less than a tenth of
+  /// its volume. As edges and faces are parallel in few pairs then, ExactPairs takes as long as on
+  /// any mesh.
   /// @param most  >= 0 [length]
   TetrahedralMesh with_moved_vertices(TetrahedralMesh mesh, double most, unsigned int seed);
 

@@ -115,8 +115,10 @@ namespace plumbline::reference
       /// By cubes a vertex or two wide, which are the blocks.
       void sort(const TetrahedralMesh &mesh, double horizon)
       {
-        // values that pairs share fit into some 10 MB
-        const double spacing = std::cbrt(of_vertex_), size = spacing * (spacing > .2 ? 2 : 1);
+        // values that pairs share fit into some 30 MB
+        const double spacing = std::cbrt(of_vertex_), size = spacing * (spacing > .25   ? 3
+                                                                        : spacing > .15 ? 2
+                                                                                        : 1);
         using Key = std::array<long, 3>;
         std::vector<std::pair<Key, std::size_t>> keys;
         for (const SpaceFace &face : faces_)
@@ -270,6 +272,8 @@ namespace plumbline::reference
         return exactly(f, g, work);
       }
 
+      using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
+
       double exactly(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
       {
         const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
@@ -303,14 +307,38 @@ namespace plumbline::reference
           if (!is_of_lattice)
             return exactly(f, g, work);
         }
+        const ExactPairs::Integral integral = known(places, work);
+        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
+                                                      largest_jump_[g.number]);
+        return integral.value;
+      }
+
+      /// By the places alone, so that all threads have the same.
+      ExactPairs::Integral known(const Places &places, Workspace &work) const
+      {
         {
           const std::lock_guard<std::mutex> lock(mutex_);
           if (const auto found = known_.find(places); found != known_.end())
             return found->second;
         }
-        const double value = exactly(f, g, work);
+        std::array<PairFace::Vertices, 2> x;
+        std::array<std::array<unsigned int, 3>, 2> names{};
+        for (unsigned int face = 0; face < 2; ++face)
+          for (unsigned int k = 0; k < 3; ++k)
+          {
+            names[face][k] = 3 * face + k;
+            for (unsigned int d = 0; d < 3; ++d)
+              x[face][k][d] = spacing_ * static_cast<double>(places[9 * face + 3 * d + k]);
+            for (unsigned int other = 0; other < 3 * face; ++other)
+              if (x[face][k] == x[0][other])
+                names[face][k] = other; // they share it
+          }
+        const ExactPairs::Integral integral =
+            (*exact_)(PairFace(x[0], names[0]), PairFace(x[1], names[1]));
         const std::lock_guard<std::mutex> lock(mutex_);
-        return known_[places] = value;
+        if (known_.try_emplace(places, integral).second)
+          ++work.use.n_pairs[integral.level];
+        return integral;
       }
 
       /// Of unknowns j: Σ_G ∬_{F×G} Λ n_F·n_j(G), or -Σ_G J_j(G) ∬_{F×G} Ψ.
@@ -352,8 +380,7 @@ namespace plumbline::reference
       double spacing_; ///< [horizons]
       std::optional<FacePairs> by_rule_;
       std::optional<ExactPairs> exact_;
-      using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
-      mutable std::map<Places, double> known_;
+      mutable std::map<Places, ExactPairs::Integral> known_;
       mutable std::mutex mutex_;         ///< of what is known
       std::vector<double> largest_jump_; ///< of each face
       std::vector<char> is_needed_;      ///< faces that rows asked for have

@@ -137,20 +137,13 @@ namespace plumbline::reference
         return result;
       }
 
-      /// The rows of the free unknowns, and a note on how they were made. Of vertices moved off a
-      /// lattice by quadrature: with the lattice around them, edges are parallel in so many pairs
-      /// of faces that exact integrals take 50 times as long.
+      /// The rows of the free unknowns, and a note on how they were made, with quadrature as an
+      /// independent check.
       algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
-      {
-        return problem.make_tetrahedra ? rows_by_quadrature(problem) : exact_rows(problem);
-      }
-
-      /// With quadrature as an independent check.
-      algebra::CsrMatrix exact_rows(const problem::Problem<3> &problem)
       {
         const bool is_continuous = space_->is_continuous();
         FaceRule exact = FaceRule::exact();
-        exact.spacing = problem.h(); // files may hold lattices, too
+        exact.spacing = problem.h(); // parts of meshes may be lattices, too
         const FaceRule check = FaceRule::quadrature(1);
         FaceRuleUse use;
         algebra::CsrMatrix matrix;
@@ -163,8 +156,8 @@ namespace plumbline::reference
         }
         else
         {
-          constexpr double of_files = 1e-12; // of a pair
-          exact.tolerance = of_files;
+          constexpr double of_meshes = 1e-12; // of a pair
+          exact.tolerance = of_meshes;
           matrix = assemble_by_faces(*space_, problem.kernel, n_unknowns(), exact, &use);
           change =
               difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check), matrix);
@@ -174,9 +167,10 @@ namespace plumbline::reference
           throw NumericalError("integrals over pairs of faces have round-off of up to " +
                                base::to_text(use.error, 1) +
                                " of the diagonal and differ from quadrature by " +
-                               base::to_text(change, 1) +
-                               ": tetrahedra are too thin; give a mesh without thin tetrahedra "
-                               "(Mesh.OptimizeThreshold of gmsh)");
+                               base::to_text(change, 1) + ": tetrahedra are too thin; " +
+                               (problem.make_tetrahedra ? "choose a smaller Methods/perturbation"
+                                                        : "give a mesh without thin tetrahedra "
+                                                          "(Mesh.OptimizeThreshold of gmsh)"));
         const auto &[n_double, n_long, n_quad, n_octuple] = use.n_pairs;
         diagnostics_.notes.push_back(
             "entries exact to round-off by integrals along lines for " +
@@ -186,26 +180,6 @@ namespace plumbline::reference
             base::to_text(use.error, 1) +
             " of the diagonal; quadrature over pairs of faces would change " +
             (is_of_cubes_ ? "them" : "a sample of them") + " by " + base::to_text(change, 1));
-        return matrix;
-      }
-
-      algebra::CsrMatrix rows_by_quadrature(const problem::Problem<3> &problem)
-      {
-        const auto rows = [&](std::size_t n, unsigned int refinement)
-        { return assemble_by_faces(*space_, problem.kernel, n, FaceRule::quadrature(refinement)); };
-        algebra::CsrMatrix matrix = rows(n_unknowns(), 0);
-        const double error = difference(rows(n_sampled(), 1), matrix); // relative to the diagonal
-        constexpr double too_much = .01;
-        if (!(error <= too_much))
-          throw NumericalError("entries by quadrature over pairs of faces are wrong by some " +
-                               base::to_text(error, 1) +
-                               " of the diagonal, since tetrahedra are thin; choose a smaller "
-                               "Methods/perturbation or Study/m, or give a mesh (Domain/mesh), on "
-                               "which they are exact");
-        diagnostics_.notes.push_back(
-            "entries by quadrature over pairs of faces; a finer rule changes a sample of them by " +
-            base::to_text(error, 1) + " of the diagonal at most" +
-            (space_->is_continuous() ? ", and linear fields are exact with any rule" : ""));
         return matrix;
       }
 
@@ -239,13 +213,16 @@ namespace plumbline::reference
     // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
     // what all faces keep, and rows of faces that are assembled at a time; all measured
     const double of_entry = size.is_scattered ? 50 : 20, of_cell = size.is_scattered ? 1000 : 100,
-                 of_faces = size.is_scattered ? 6e7 : 0;
+                 of_faces = size.is_scattered ? 6e7 : 0, of_pair = 220; // of a lattice, known once
     const double reach = size.reach() / size.level.h, n_types = is_continuous ? 1 : 6,
                  wider = is_continuous ? 2 : 1.2,
                  n_cubes = size.extents[0] * size.extents[1] * size.depth,
                  n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
                          (size.depth + 2 * reach),
                  n_columns = 4 * M_PI / 3 * std::pow(reach + wider, 3) * n_types;
-    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell + of_faces;
+    // 12 faces per vertex, with half of those around them
+    const double n_pairs = 72 * 4 * M_PI / 3 * std::pow(reach + 1, 3);
+    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell + of_faces +
+           n_pairs * of_pair;
   }
 } // namespace plumbline::reference

@@ -19,6 +19,8 @@ namespace plumbline::reference
     /// Heights of an edge over a plane that differ by less are equal; coordinates of some horizons
     /// are rounded by that much.
     constexpr double rounding = 2e-14;
+    /// The same of edges that are parallel to all digits of Quad.
+    constexpr double least_rounding = 1e-32;
     /// The same with 237 bits: coordinates are exact, and what is not parallel differs by more.
     constexpr double no_rounding = 1e-55;
     /// Faces nearer than this [horizons] take functions that are regular at 0.
@@ -46,6 +48,47 @@ namespace plumbline::reference
       return result;
     }
 
+    /// A plane between them, across the line of their centres, shows that they are so far apart.
+    bool are_out_of_reach(const PairFace &f, const PairFace &g)
+    {
+      const dealii::Tensor<1, 3> line = g.centre() - f.centre();
+      const double distance = line.norm();
+      if (distance < 1)
+        return false;
+      double last = -distance, first = 2 * distance; // along the line, from the centre of f
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        last = std::max(last, line * (f.vertices()[k] - f.centre()) / distance);
+        first = std::min(first, line * (g.vertices()[k] - f.centre()) / distance);
+      }
+      return first - last >= 1;
+    }
+
+    /// Makes edges that are parallel to the digits of double so to all digits, by a move of a
+    /// vertex of g by a rounding of its coordinates. Faces that are not parallel have one such
+    /// pair.
+    /// @return  whether there is one
+    template <class Real>
+    bool align(const FormFace<Real> &f, FormFace<Real> &g)
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+        {
+          const Vector<Real> a = f.edge(i), b = g.edge(j);
+          constexpr double alike = 1e-15;
+          if (g.is_shared_edge(j, f) || a.cross(b).norm() > alike * (a.norm() + b.norm()))
+            continue;
+          const Vector<Real> along = a * (a.dot(b) / a.dot(a));
+          const unsigned int end = FormFace<Real>::next(j);
+          if (f.shares(g.names[end]))
+            g.x[j] = g.x[end] - along;
+          else
+            g.x[end] = g.x[j] + along;
+          return true;
+        }
+      return false;
+    }
+
     double gap(const PairFace &f, const PairFace &g)
     {
       return f.centre().distance(g.centre()) - f.radius() - g.radius();
@@ -68,6 +111,11 @@ namespace plumbline::reference
       {
         return make();
       }
+      template <class Make>
+      auto parallel(unsigned int, unsigned int, const Make &make) const
+      {
+        return make();
+      }
     };
 
     template <class Real>
@@ -79,40 +127,46 @@ namespace plumbline::reference
       return form(form_face<Real>(f), form_face<Real>(g), parallel);
     }
 
-    /// The few values that pairs share in long double, by numbers.
-    class LongerValues
+    /// Few values that pairs share, by numbers.
+    template <class Real>
+    class RareValues
     {
     public:
       void clear()
       {
         of_edges_.clear();
         of_vertices_.clear();
+        parallel_.clear();
       }
       void set_face(unsigned int face) { face_ = face; } ///< of second_vertex()
 
       template <class Make>
-      Sum<long double> edges(unsigned int e, unsigned int f, bool is_compact, const Make &make)
+      Sum<Real> edges(unsigned int e, unsigned int f, bool is_compact, const Make &make)
       {
         return take(of_edges_, e, f, is_compact, make);
       }
       template <class Make>
-      Sum<long double> first_vertex(unsigned int v, unsigned int face, bool is_compact,
-                                    const Make &make)
+      Sum<Real> first_vertex(unsigned int v, unsigned int face, bool is_compact, const Make &make)
       {
         return take(of_vertices_, v, face, is_compact, make);
       }
       template <class Make>
-      Sum<long double> second_vertex(unsigned int v, bool is_compact, const Make &make)
+      Sum<Real> second_vertex(unsigned int v, bool is_compact, const Make &make)
       {
         return take(of_vertices_, v, face_, is_compact, make);
       }
+      template <class Make>
+      Sum<Real> parallel(unsigned int e, unsigned int face, const Make &make)
+      {
+        return take(parallel_, e, face, false, make);
+      }
 
     private:
-      using Values = std::unordered_map<std::uint64_t, Sum<long double>>;
+      using Values = std::unordered_map<std::uint64_t, Sum<Real>>;
 
       template <class Make>
-      static Sum<long double> take(Values &values, unsigned int first, unsigned int second,
-                                   bool is_compact, const Make &make)
+      static Sum<Real> take(Values &values, unsigned int first, unsigned int second,
+                            bool is_compact, const Make &make)
       {
         constexpr unsigned int half = 32;
         const std::uint64_t key = (static_cast<std::uint64_t>(first) << half) +
@@ -121,7 +175,7 @@ namespace plumbline::reference
         return found != values.end() ? found->second : values[key] = make();
       }
 
-      Values of_edges_, of_vertices_;
+      Values of_edges_, of_vertices_, parallel_;
       unsigned int face_ = 0;
     };
 
@@ -210,10 +264,16 @@ namespace plumbline::reference
     {
       return take(of_face[vertices[v]], is_compact, make);
     }
+    template <class Make>
+    Sum<double> parallel(unsigned int e, unsigned int face, const Make &make)
+    {
+      return rare.parallel(e, face, make);
+    }
 
     Places edge_rows, edge_columns, vertex_rows, vertices, faces;
     std::vector<Slot> of_edges, of_vertices, of_face;
-    LongerValues longer;
+    RareValues<double> rare;
+    RareValues<long double> longer;
     const NumberedFace *face = nullptr; ///< that of_face is of
   };
 
@@ -245,6 +305,7 @@ namespace plumbline::reference
     }
     t.of_edges.assign(t.edge_rows.size() * t.edge_columns.size(), {});
     t.of_vertices.assign(t.vertex_rows.size() * t.faces.size(), {});
+    t.rare.clear();
     t.longer.clear();
     t.face = nullptr;
   }
@@ -279,7 +340,7 @@ namespace plumbline::reference
                                               Shared &shared) const
   {
     const double distance = gap(*f.face, *g.face);
-    if (distance >= 1)
+    if (distance >= 1 || are_out_of_reach(*f.face, *g.face))
       return {};
     Shared::Tables &tables = *shared.tables_;
     if (tables.face != &f)
@@ -293,7 +354,8 @@ namespace plumbline::reference
     const Sum<double> sum = form(form_face<double>(f), form_face<double>(g), rounding);
     if (const double error = bound(sum); error <= tolerance_)
       return {sum.value, error, 0};
-    PairForm<long double, LongerValues> longer(parts_->longer, is_compact, tables.longer);
+    PairForm<long double, RareValues<long double>> longer(parts_->longer, is_compact,
+                                                          tables.longer);
     const Sum<long double> refined =
         longer(form_face<long double>(f), form_face<long double>(g), rounding);
     if (const double error = bound(refined); error <= tolerance_)
@@ -303,7 +365,12 @@ namespace plumbline::reference
 
   ExactPairs::Integral ExactPairs::precise_enough(const PairFace &f, const PairFace &g) const
   {
-    const Sum<Quad> precise = integrate(parts_->quad, f, g);
+    NothingShared nothing;
+    PairForm<Quad, NothingShared> form(parts_->quad, gap(f, g) > compact_from, nothing);
+    const FormFace<Quad> x = form_face<Quad>(f);
+    FormFace<Quad> y = form_face<Quad>(g);
+    const double parallel = align(x, y) ? least_rounding : rounding;
+    const Sum<Quad> precise = form(x, y, parallel);
     if (const double error = bound(precise); error <= tolerance_)
       return {static_cast<double>(precise.value), error, 2};
     const Sum<Octuple> last = integrate(parts_->octuple, f, g, no_rounding);
@@ -312,7 +379,7 @@ namespace plumbline::reference
 
   ExactPairs::Integral ExactPairs::operator()(const PairFace &f, const PairFace &g) const
   {
-    if (gap(f, g) >= 1)
+    if (gap(f, g) >= 1 || are_out_of_reach(f, g))
       return {};
     const Sum<double> sum = integrate(parts_->usual, f, g);
     if (const double error = bound(sum); error <= tolerance_)

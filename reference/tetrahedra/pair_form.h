@@ -148,7 +148,7 @@ namespace plumbline::reference
       constexpr double share = 1e-3;
       const Real distance = (f.x[0] - g.x[0]).norm();
       sum_.size *= 1 + share * distance / std::min(f.least_rise(), g.least_rise());
-      constexpr double least_sine = 1e-3, no_bound = 1e30, certain = 1e-50;
+      constexpr double least_sine = 1e-3, no_bound = 1e30, certain = 1e-30;
       if (has_parallel && sine < least_sine && rounding > certain)
         sum_.size *= no_bound; // what is taken for parallel ought to be so to more digits
       return sum_;
@@ -249,8 +249,9 @@ namespace plumbline::reference
         const Real distance = (f.edge(i).dot(axis) > 0 ? height : Real(-height)) * factor;
         if (abs(height) < flat)
           continue;
-        const ParallelFunction<Real> function(parts_, abs(height), false);
-        add_edge_and_face(f, i, g, Real(distance * f.length[i]), function);
+        const auto make = [&]
+        { return edge_and_face(f, i, g, ParallelFunction<Real>(parts_, abs(height), false)); };
+        sum_.add(distance * f.length[i], cache_.parallel(f.edges[i], g.number, make));
         for (unsigned int j = 0; j < 3; ++j)
         {
           if (g.is_parallel[j])
@@ -263,20 +264,21 @@ namespace plumbline::reference
       }
     }
 
-    /// factor/|e| × ∬_{e×G} g₁ by rays from the projection of the start of an edge e = i.
+    /// 1/|e| × ∬_{e×G} g₁ by rays from the projection of the start of an edge e = i.
     template <class Function>
-    void add_edge_and_face(const Face &f, unsigned int i, const Face &g, const Real &factor,
-                           const Function &function)
+    Sum<Real> edge_and_face(const Face &f, unsigned int i, const Face &g,
+                            const Function &function) const
     {
       const unsigned int end = Face::next(i);
-      sum_.add(factor, plane_from(f.x[end], g).regular(function));
+      Sum<Real> sum = plane_from(f.x[end], g).regular(function);
       const Point from = g.project(f.x[i]);
       for (unsigned int j = 0; j < 3; ++j)
       {
         const Real distance = g.distance(j, from);
         if (distance != 0)
-          sum_.add(factor * distance * g.length[j], edges_by(f, i, g, j, function));
+          sum.add(distance * g.length[j], edges_by(f, i, g, j, function));
       }
+      return sum;
     }
 
     /// ∬_{e×e'} of a function's g, parameters in [0, 1].
@@ -378,8 +380,8 @@ namespace plumbline::reference
       const Point centre = (f.x[0] + f.x[1] + f.x[2]) * (Real(1) / 3), foot = g.project(centre);
       for (unsigned int i = 0; i < 3; ++i)
       {
-        add_edge_and_face(f, i, g, Real(f.distance(i, centre) * f.length[i]), function);
-        add_edge_and_face(g, i, f, Real(g.distance(i, foot) * g.length[i]), function);
+        sum_.add(f.distance(i, centre) * f.length[i], edge_and_face(f, i, g, function));
+        sum_.add(g.distance(i, foot) * g.length[i], edge_and_face(g, i, f, function));
       }
     }
 

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -332,20 +333,32 @@ TEST(TetrahedralFields, are_linear_where_they_should_be)
   EXPECT_NEAR(sum, moment, 1e-14);
 }
 
-TEST(Tetrahedra, are_moved_inside_the_domain_alone_and_keep_their_volume)
+TEST(Tetrahedra, are_moved_inside_the_domain_and_its_collar_and_keep_their_volume)
 {
   const auto lattice = cubes(1, .25);
-  const auto regular = six_per_cube(lattice, 1),
-             moved = geometry::with_moved_vertices(regular, .45 * .25, 3);
+  const auto regular = six_per_cube(lattice, 2),
+             moved = geometry::with_moved_vertices(regular, .45 * .25, 3),
+             narrow = geometry::with_moved_vertices(six_per_cube(lattice, 1), .45 * .25, 3);
   const auto is_inner = geometry::inner_vertices(regular);
   unsigned int n_moved = 0;
   for (std::size_t vertex = 0; vertex < regular.vertices.size(); ++vertex)
   {
-    const double move = regular.vertices[vertex].distance(moved.vertices[vertex]);
-    EXPECT_LE(move, is_inner[vertex] != 0 ? .45 * .25 * std::sqrt(3.) : 0);
-    n_moved += move > 0 ? 1 : 0;
+    const Point<3> &place = regular.vertices[vertex], &at = moved.vertices[vertex];
+    bool is_on_surface = false, is_outside = false;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      is_outside = is_outside || place[d] < 0 || place[d] > 1;
+      is_on_surface = is_on_surface || place[d] == -.5 || place[d] == 1.5;
+    }
+    is_on_surface = is_on_surface || (!is_outside && is_inner[vertex] == 0);
+    EXPECT_LE(at.distance(place), is_on_surface ? 0 : .45 * .25 * std::sqrt(3.));
+    n_moved += at.distance(place) > 0 ? 1 : 0;
+    if (is_inner[vertex] != 0) // whatever is around
+    {
+      EXPECT_EQ(std::count(narrow.vertices.begin(), narrow.vertices.end(), at), 1);
+    }
   }
-  EXPECT_EQ(n_moved, 27u);
+  EXPECT_EQ(n_moved, 27u + 7 * 7 * 7 - 5 * 5 * 5);
   double volume = 0;
   for (std::size_t cell = 0; cell < moved.cells.size(); ++cell)
   {
