@@ -133,7 +133,7 @@ namespace plumbline::app
     {
       for (const study::Record &record : results.records)
         if (const study::Key &key = record.key; !record.failure.empty())
-          std::cerr << "no solution: " << key.label()
+          std::cerr << "no result: " << key.label()
                     << (key.problem.empty() ? "" : ", " + key.problem) << ", " << key.series
                     << ", h = " << key.h << ": " << record.failure << '\n';
     }

@@ -126,7 +126,8 @@ namespace
     run.add_flag("--quiet", options->quiet, "Print nothing but errors");
     run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
     run.add_flag("--estimate", options->is_estimate,
-                 "Print the memory that each rank would take by method and level, and run nothing");
+                 "Print the estimated peak memory of each rank by method and level, and exit "
+                 "without running");
     set_action(run, request, options, plumbline::app::run, true);
   }
 
@@ -283,7 +284,8 @@ namespace
         "moduli", "Elastic constants of meshfree rules on square or cubic lattices");
     command.add_option("--kernel", options->kernel,
                        "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
-    command.add_option("--state", options->state, "'plane stress' (default), 'plane strain' or 3D");
+    command.add_option("--state", options->state,
+                       "stress (plane stress, default), strain (plane strain) or 3D");
     command
         .add_option(ratios_option, options->ratios,
                     "Horizons over mesh size, separated by commas, semicolons or blanks (default: "

@@ -18,7 +18,7 @@ namespace plumbline::app
   {
     if (scene.time.is_dynamic() && !scene.domain.is_in_space())
       throw InputError("--estimate: the memory of transient analyses is estimated in three "
-                       "dimensions only; in the plane run the first levels (--levels)");
+                       "dimensions only; in the plane, run the first levels only (--levels)");
     const base::Communicator ranks = base::Communicator::all();
     method::Methods methods = study::choose_methods(scene, all_methods());
     if (scene.reference.method && !scene.time.is_dynamic())

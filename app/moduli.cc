@@ -64,7 +64,7 @@ namespace plumbline::app
       for (const double m : ratios)
         if (!(m >= 1) || m > 50)
           throw InputError(std::string(ratios_option) + ": horizon / h = " + base::to_text(m, 6) +
-                           " is not between 1, where a node has its first neighbours, and 50");
+                           " must be between 1 (below that a node has no neighbours) and 50");
       return ratios;
     }
 

@@ -50,7 +50,7 @@ namespace plumbline::app
                       "the domain is one box" +
                       (scene.time.is_dynamic() ? " and no error is estimated (Reference/estimate)"
                                                : "")
-                : ", since lattices are not shared among them; one rank is as fast, and "
-                  "Domain/mesh = squares is shared");
+                : ", because problems on lattices in the plane are not distributed; use one rank, "
+                  "or write Domain/mesh = squares, which is distributed");
   }
 } // namespace plumbline::app

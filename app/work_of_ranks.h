@@ -16,6 +16,5 @@ namespace plumbline::app
 
   /// The same of a scene with a time whose work the first rank does while others have none.
   inline const std::string work_of_first_rank =
-      "all by the first rank: motions by these methods are "
-      "not shared among ranks";
+      "all by the first rank: transient analyses by these methods are not distributed";
 } // namespace plumbline::app

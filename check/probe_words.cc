@@ -67,9 +67,10 @@ namespace plumbline::check
     if (found.noncentral.value > most_noncentral)
       throw InputError(
           "forces are not along the bonds: " + base::to_percent(found.noncentral.value) +
-          " of the largest force constant are not, of " + bond(found.noncentral, nodes) +
+          " of the largest force constant is perpendicular to the bond of " +
+          bond(found.noncentral, nodes) +
           ". The program is not bond-based, evaluates kernels at points other than the nodes, or "
-          "its bonds are under load; probe a bond-based material in the undeformed state, or "
+          "its bonds are prestressed; probe a bond-based material in the undeformed state, or "
           "export the weights from the program");
     if (found.nonlinearity > most_nonlinear)
       throw InputError(
@@ -114,7 +115,8 @@ namespace plumbline::check
           << " pairs\n";
     out << "balance    " << number(found.imbalance)
         << " is the norm of the sum of all forces due to one displacement\n"
-        << "direction  " << number(found.noncentral.value) << " is not along the bond\n"
+        << "direction  " << number(found.noncentral.value)
+        << " is the force component perpendicular to the bond\n"
         << "linearity  " << number(found.nonlinearity)
         << " is the change when the step is halved\n";
     constexpr std::size_t n_columns = 120, indent = 2;

@@ -40,10 +40,10 @@ namespace plumbline::check
     {
       const std::size_t n_free = n_of_domain(found);
       out << "nodes     " << input.nodes_file << ": " << n_free << " free, "
-          << found.ids.size() - n_free << " in the collar; volumes "
+          << found.ids.size() - n_free << " in the interaction domain; volumes "
           << (std::abs(found.volume_defect) < round_off
-                  ? "are the cells' areas"
-                  : "are off the cells' areas by " + base::to_percent(found.volume_defect))
+                  ? "equal the cells' areas"
+                  : "differ from the cells' areas by " + base::to_percent(found.volume_defect))
           << '\n'
           << "bonds     " << input.bonds_file << ": "
           << (found.body ? found.body->n_bonds : found.weights.n_bonds) << ", at most "

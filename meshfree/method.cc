@@ -173,8 +173,9 @@ namespace plumbline::meshfree
 
       static std::string no_tensors()
       {
-        return "it has weights for scalar kernels only: derivatives of vectors make no forces "
-               "along bonds; take GFD or IPA-AC-R2";
+        return "it has weights for scalar kernels only: fitted derivatives of a vector field do "
+               "not give "
+               "forces along the bonds; use GFD or IPA-AC-R2";
       }
 
       template <int dim>

@@ -274,8 +274,8 @@ namespace plumbline::scene
     require(
         !is_of_equations || target == Target::exact || target == Target::local,
         decisive +
-            ": truncation errors and bounds made of them are of a known solution; use the target "
-            "exact or local");
+            ": truncation errors, and the bounds that follow from them, need a known solution; use "
+            "the target exact or local");
     require(target != Target::exact || !scene.problem.solutions.empty(),
             decisive + " needs Problem/solution, which is empty; " + without_solution(reference));
     require(target != Target::local || local != LocalSolution::computed || is_of_averages,

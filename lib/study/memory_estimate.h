@@ -19,7 +19,8 @@ namespace plumbline::study
   {
     std::string method, series;
     problem::Level level;
-    MemoryEstimate largest; ///< of the solution and what an estimate of its error solves
+    /// Of the solution; of static ones also what an estimate of the error solves.
+    MemoryEstimate largest;
   };
 
   /// What check_memory() and check_memory_of_motion() compare with the memory that there is, by

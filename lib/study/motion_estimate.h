@@ -28,8 +28,8 @@ namespace plumbline::study
   {
   }
 
-  /// Leave to each rank a slab, where the motion by the method is distributed over ranks: estimates
-  /// of errors, which compare lattices, are not.
+  /// Give each rank a slab if the transient analysis by the method is distributed over ranks. It is
+  /// not distributed if its error is estimated, since the estimate compares lattices.
   /// @note Collective.
   void share_motion(const scene::Scene &scene, const Method &method,
                     method::DiscretisationInSpace &discretisation, const base::Communicator &ranks);

@@ -45,8 +45,7 @@ namespace plumbline::study
                               unsigned int n_levels, unsigned int n_jobs = 1,
                               unsigned int n_ranks = 1);
 
-  /// Those of the methods whose solutions of the scene are not distributed over ranks: static ones,
-  /// or motions if it has a time.
+  /// The methods whose analysis of the scene, static or transient, is not distributed over ranks.
   /// @pre scene.domain.is_in_space()
   Methods repeated_by_ranks(const scene::Scene &scene, const Methods &methods);
 

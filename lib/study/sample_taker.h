@@ -26,6 +26,6 @@ namespace plumbline::study
 
   SampleTaker sample_taker(const scene::Scene &scene, const Methods &available);
 
-  /// Its samples are growths.
+  /// Whether each sample is an analysis of quasi-static fracture (`grow`).
   bool is_growth(const scene::Scene &scene);
 } // namespace plumbline::study

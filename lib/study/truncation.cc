@@ -38,8 +38,8 @@ namespace plumbline::study
           dynamic_cast<const method::HasLinearEquations<dim> *>(discretisation.get());
       if (able == nullptr)
         throw InputError(
-            "Study/norms: truncation errors need the sparse matrix of a rule, and bodies with "
-            "a free boundary are solved without one; write nodal or averages norms");
+            "Study/norms: truncation errors and bounds need the sparse matrix of a rule, and "
+            "bodies with a free boundary are solved without one; write nodal or averages norms");
       return able->equations(problem);
     }
 
@@ -83,8 +83,8 @@ namespace plumbline::study
       found.l2 = std::sqrt(found.l2);
       if (!std::isfinite(found.l2)) // the largest loses NaN
         throw NumericalError(
-            "the truncation error is not a finite number: u, the load or the constraint is "
-            "not, at a node");
+            "the truncation error is not a finite number: u, the load or the constraint is not "
+            "finite at some node; check Problem/solution, load and constraint");
       found.round_off = safety * epsilon * (cancelled + found.load);
       if (!(found.load > found.round_off))
         found.load = cancelled;

@@ -14,8 +14,9 @@ namespace plumbline::meshfree
                                                   std::function<double(const Bond<dim> &)> omega)
   {
     if (kernel.n_components() > 1)
-      throw InputError(name + " has weights for scalar kernels only: derivatives of vectors make "
-                              "no forces along bonds; take GFD or IPA-AC-R2");
+      throw InputError(name +
+                       " has weights for scalar kernels only: fitted derivatives of a "
+                       "vector field do not give forces along the bonds; use GFD or IPA-AC-R2");
     // c = ω times a polynomial with these conditions is the c of least Σ c²/ω that meets them
     const auto conditions_of = [&](std::vector<Exponents<dim>> (*select)(int, int))
     {

@@ -6,7 +6,7 @@
 
 namespace plumbline::meshfree
 {
-  /// The local limit Σ_p M_p/p! ∂^p, M_p = ∫ C ξ^p, 1 <= |p| <= 2, with derivatives at a node that
+  /// The local limit -Σ_p M_p/p! ∂^p, M_p = ∫ C ξ^p, 1 <= |p| <= 2, with derivatives at a node that
   /// are a weighted least-squares fit of degree 2 to the values u_j of the family and the node's
   /// own value, min Σ ω_j (P(ξ_j) - u_j)². The coefficients c = w C are ω_j times a polynomial of
   /// degree 2 in ξ_j such that Σ c ξ^n = M_n, 1 <= |n| <= 2, and Σ c = 0 with the node's own. They

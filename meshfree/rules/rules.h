@@ -72,11 +72,11 @@ namespace plumbline::meshfree
 
   /// The peridynamic differential operator of degree 2: derivatives of the local limit by fitted
   /// values (see fitted_derivatives), ω = A exp(-(2r/δ)²). Generalised finite differences fit
-  /// differences u_j - u instead, and have no condition on the sum of all coefficients. By this
-  /// condition coefficients near the node have the wrong sign from m = 2.2 or so, and short waves
-  /// may have eigenvalues of 0 or less, though second moments are exact. Scalar kernels only.
-  /// Infeasible, a NumericalError, as above.
-  /// Source: Madenci, Barut & Futch 2016, doi:10.1016/j.cma.2016.02.028.
+  /// differences u_j - u instead, and have no condition on the sum of all coefficients. Because
+  /// of this condition the coefficients of the nearest neighbours are negative on the square
+  /// lattice from m = 2.12 on, and short waves may have eigenvalues <= 0 although second moments
+  /// are exact. Scalar kernels only. Infeasible, a NumericalError, as above. Source: Madenci, Barut
+  /// & Futch 2016, doi:10.1016/j.cma.2016.02.028.
   /// @throws InputError  a bond tensor
   template <int dim>
   NeighbourhoodQuadrature<dim> peridynamic_differential_operator(const Kernel<dim> &kernel);

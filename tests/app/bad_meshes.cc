@@ -298,11 +298,11 @@ TEST_F(BadMeshes, what_cannot_be_solved_exits_with_3_and_keeps_the_rest)
                             set("Quadrature/tolerance", "1e-12");
   const std::vector<Trial> runs = {
       {tight + set("Quadrature/max refinements", "0") + "--methods P1,FA",
-       {"no solution: P1, u, m = 2, h = 0.25", "more than Quadrature/tolerance = 1e-12; raise"}},
+       {"no result: P1, u, m = 2, h = 0.25", "more than Quadrature/tolerance = 1e-12; raise"}},
       {tight + set("Quadrature/max refinements", "1") + "--methods P1,FA",
-       {"no solution: P1", "refinement 1", "Quadrature/max refinements or the tolerance"}},
+       {"no result: P1", "refinement 1", "Quadrature/max refinements or the tolerance"}},
       {set("Study/m", "1.2") + "--methods FA,IPA-AC-R4,Q1",
-       {"no solution: IPA-AC-R4, u, m = 1.2, h = 0.25",
+       {"no result: IPA-AC-R4, u, m = 1.2, h = 0.25",
         "up to degree 4 are infeasible at node 16, "
         "(0.125, 0.125): the 8 neighbours span rank 8 of 14",
         "; raise m = horizon / h", "or take a rule of lower degree"}},
@@ -316,7 +316,7 @@ TEST_F(BadMeshes, what_cannot_be_solved_exits_with_3_and_keeps_the_rest)
   for (std::size_t i = 0; i < 3; ++i) // the other methods are there, and the failed one says why
   {
     expect_found(outcomes[i].out, "failed");
-    EXPECT_EQ(outcomes[i].err.find("no solution: FA"), std::string::npos);
+    EXPECT_EQ(outcomes[i].err.find("no result: FA"), std::string::npos);
     EXPECT_TRUE(fs::exists(output(i) / "report.html"));
     expect_found(read(output(i) / "results.json"), "averages L2 | exact");
   }

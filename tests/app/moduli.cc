@@ -88,7 +88,7 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   };
   expect("--kernel constant", "has no elastic constants of its own; choose bond-tensor");
   expect("--kernel nope", "choose one of");
-  expect("--m 0.5", "is not between 1");
+  expect("--m 0.5", "must be between 1");
   expect("--m nan", "--m");
   expect("--m 3,015", "looks like a number with a decimal comma; write 3.015");
   expect("--rules XY", "choose all or some of FA, LAMMPS");

@@ -31,7 +31,7 @@ TEST(Ranks, agree_on_a_budget_on_lattices_and_say_that_they_repeat_the_work)
   const Outcome outcome = run_on_two_ranks("run " + scene + " --budget 0.002");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, since lattices "
-                               "are not shared among them"),
+                               "problems on lattices in the plane are not distributed"),
             1u)
       << outcome.err;
   expect_found(read(folder / "results.json"), "\"work of ranks\": \"repeated by each");

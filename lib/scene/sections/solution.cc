@@ -94,7 +94,7 @@ namespace plumbline::scene
         "CSV file with columns x and y (and z in three dimensions): points in the domain at which "
         "'run' writes each static solution of Methods/names, its error, its change from the level "
         "before and, for Galerkin methods, an estimate of its error (points/*.csv; no estimate "
-        "with Reference/estimate = none). For the values of the reference, name its method there, "
-        "too. Relative to the scene; empty: none.");
+        "with Reference/estimate = none). For values of the reference, list its method in "
+        "Methods/names as well. The path is relative to the scene file; empty: none.");
   }
 } // namespace plumbline::scene

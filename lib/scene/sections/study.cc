@@ -90,8 +90,9 @@ namespace plumbline::scene
         "solution, weighted by area), field Linf, field L2 (of the function), truncation Linf, "
         "truncation L2 (of meshfree rules: the residual of their equations for the exact or "
         "local solution, in units of the load), bound Linf, bound L2 (of meshfree rules: the "
-        "truncation error times the norm of the inverse operator, or over its smallest "
-        "eigenvalue; stability and consistency bound the nodal error by it).");
+        "largest truncation error times the inf-norm of A^-1, and the L2 norm of the truncation "
+        "error divided by the smallest eigenvalue of the symmetric part of A: bounds on the nodal "
+        "error).");
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
