@@ -194,7 +194,7 @@ namespace plumbline::app
         std::cout << report::study_summary(row.view(results), results,
                                            (folder / (row.analysis.name + ".html")).string());
       if (!results.is_complete)
-        say_interrupted(folder);
+        say_interrupted(folder, row.goes_on);
       if (!row.analysis.are_failures_findings)
         tell_failures(results);
       for (const study::Expectation &one : results.expectations)

@@ -10,6 +10,7 @@
 #include "methods.h"
 #include "output_folder.h"
 #include "report/certificate_text.h"
+#include "report/counted.h"
 #include "run_parts.h"
 #include "sha256.h"
 #include "study/certificate.h"
@@ -61,7 +62,7 @@ namespace plumbline::app
         n_wrong += one->error() > one->bound ? 1 : 0;
       }
       const std::string of =
-          " of " + report::n_values(certificate.points.size() + (certificate.mean ? 1 : 0));
+          " of " + report::counted(certificate.points.size() + (certificate.mean ? 1 : 0), "value");
       std::string reason;
       if (n_without > 0)
         reason = "there is no bound for " + std::to_string(n_without) + of +

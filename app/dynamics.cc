@@ -72,7 +72,10 @@ namespace plumbline::app
         scene.domain.is_in_space() ? study::repeated_by_ranks(scene, methods) : methods;
     const bool is_shared = repeated.size() < methods.size();
     if (!is_shared && all.rank() != 0)
-      return 0; // the first one does the work
+    {
+      watch_interrupts(); // which are the first one's to heed
+      return 0;           // it does the work
+    }
     const base::Communicator ranks = is_shared ? all : base::Communicator::alone();
     const fs::path folder = output_folder(options.output, scene);
     on_first_rank(ranks, [&] { check_frames(scene, methods, folder); });

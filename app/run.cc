@@ -106,6 +106,9 @@ namespace plumbline::app
   {
     end_at_interrupts();
     const scene::Scene scene = read(options);
+    if (options.is_estimate && options.json)
+      throw InputError("--estimate is a table for people, and results that --json prints are not "
+                       "there before a run; leave out one of them");
     if (options.is_estimate)
       return print_estimate(options, scene);
     if (scene.time.is_dynamic())

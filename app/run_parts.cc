@@ -77,10 +77,10 @@ namespace plumbline::app
     return interrupted != 0;
   }
 
-  int say_interrupted(const std::filesystem::path &folder)
+  int say_interrupted(const std::filesystem::path &folder, bool goes_on)
   {
     std::cerr << "interrupted: what is finished is in '" << folder.string()
-              << "'; the same command continues\n";
+              << "'; the same command " << (goes_on ? "continues" : "starts anew") << '\n';
     return 130;
   }
 

@@ -27,7 +27,7 @@ namespace plumbline::app
   /// Says on the terminal where the results of an interrupted command are, which it takes over when
   /// it is run again.
   /// @return  its exit code
-  int say_interrupted(const std::filesystem::path &folder);
+  int say_interrupted(const std::filesystem::path &folder, bool goes_on = true);
 
   /// Do something on the first of these ranks. If it fails, all of them stop. @note Collective.
   void on_first_rank(const base::Communicator &ranks, const std::function<void()> &action);

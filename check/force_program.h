@@ -5,6 +5,7 @@
 #include "meshfree/check/probe.h"
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ namespace plumbline::check
   };
 
   /// What should_stop() of a program asked for.
-  struct Interrupted
+  struct Interrupted : std::exception
   {
   };
 

@@ -1,6 +1,7 @@
 #include "report/certificate_text.h"
 
 #include "base/number_text.h"
+#include "report/counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,16 +118,11 @@ namespace plumbline::report
     return table;
   }
 
-  std::string n_values(std::size_t n)
-  {
-    return std::to_string(n) + (n == 1 ? " value" : " values");
-  }
-
   namespace
   {
     std::string answer_of(const Certificate &certificate)
     {
-      return n_values(certificate.points.size()) + " certified to at least " +
+      return counted(certificate.points.size(), "value") + " certified to at least " +
              std::to_string(certificate.least_digits()) + " digits by " +
              certificate.galerkin.method + ", confirmed to " +
              std::to_string(certificate.confirmed_digits()) + " by " + certificate.meshfree.method +

@@ -3,7 +3,6 @@
 #include "report/text_table.h"
 #include "study/certificate.h"
 
-#include <cstddef>
 #include <string>
 
 namespace plumbline::report
@@ -14,9 +13,6 @@ namespace plumbline::report
   /// Root mean squares of the errors of a certificate's meshfree rules by mesh sizes, their orders,
   /// and the digits on the finest one.
   Table rules_table(const study::Certificate &certificate);
-
-  /// "1 value", "2 values"
-  std::string n_values(std::size_t n);
 
   /// What is certified, with all tables and the scene.
   std::string certificate_markdown(const study::Certificate &certificate);

@@ -304,20 +304,22 @@ namespace plumbline::report
   Table bound_table(const study::StudyResults &results)
   {
     Table table;
-    table.columns = {"method", "case",   "series", "h [length]",  "horizon [length]",
-                     "error",  "‖A⁻¹‖∞", "bound",  "nodal error", "error / bound"};
+    table.columns = {"method", "case",  "series", "h [length]",  "horizon [length]",
+                     "error",  "‖A⁻¹‖", "bound",  "nodal error", "error / bound"};
     for (const study::Record &run : results.records)
       for (const auto &[name, bound] : study::errors_of(run))
         if (study::is_bound(name))
         {
           const std::string nodal = "nodal" + name.substr(name.find(' '));
-          const bool is_known = run.has(nodal);
-          table.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
-                                text_cell(run.key.series), number_cell(run.key.h),
-                                number_cell(run.key.horizon), text_cell(error_words(nodal)),
-                                number_cell(run["inverse norm"]), error_cell(bound),
-                                is_known ? error_cell(run[nodal]) : empty_cell(),
-                                is_known ? number_cell(run[nodal] / bound) : empty_cell()});
+          const bool is_largest = study::norm_of_one(name, 4) == 1;
+          const bool is_known = run.has(nodal),
+                     is_round_off = !(bound > study::round_off_of(run, name));
+          table.rows.push_back(
+              {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
+               number_cell(run.key.h), number_cell(run.key.horizon), text_cell(error_words(nodal)),
+               number_cell(is_largest ? run["inverse norm"] : 1 / run["smallest eigenvalue"]),
+               error_cell(bound), is_known ? error_cell(run[nodal]) : empty_cell(),
+               is_known && !is_round_off ? number_cell(run[nodal] / bound) : empty_cell()});
         }
     return table;
   }

@@ -134,7 +134,7 @@ namespace plumbline::study
         text << " on each of " << n_ranks << " ranks";
       const bool is_of_centroids =
           size.depth > 0 && size.n_cells > 0 && method.family() == method::MethodFamily::meshfree;
-      return {text.str(), is_shared,
+      return {text.str(),
               method.expected_bytes(is_of_centroids ? of_centroids(of_rank) : of_rank) + more};
     }
 

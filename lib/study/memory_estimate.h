@@ -10,9 +10,8 @@ namespace plumbline::study
   /// The most memory that a process takes for a solution, above what stood before.
   struct MemoryEstimate
   {
-    std::string what;            ///< it solves, in words
-    bool is_distributed = false; ///< over ranks: the bytes are those of one rank's share
-    double bytes = 0;            ///< see Method::expected_bytes; 0: little
+    std::string what; ///< it solves, in words
+    double bytes = 0; ///< see Method::expected_bytes; 0: little
   };
 
   struct MemoryOfLevel

@@ -1,5 +1,6 @@
 #include "study/transient.h"
 
+#include "algebra/symbol.h"
 #include "base/error.h"
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
@@ -213,8 +214,24 @@ namespace plumbline::study
           of_method_.set(name, value);
         of_method_.set("symmetric", equation_->is_symmetric() ? 1 : 0);
         of_method_.set("area of the domain", area_);
-        if (method_.family() == MethodFamily::meshfree)
-          set_limit(of_method_, discretisation_->diagnostics().limit);
+        if (method_.family() != MethodFamily::meshfree)
+          return;
+        const auto diagnostics = discretisation_->diagnostics();
+        set_limit(of_method_, diagnostics.limit);
+        if (diagnostics.n_negative_weights > 0 && equation_->is_symmetric())
+          set_growth();
+      }
+
+      /// Where some wave grows, which weights >= 0 do not allow: how fast.
+      void set_growth()
+      {
+        constexpr double rounding = 1e-12; // of sums that are 0 for waves of infinite length
+        const auto waves = discretisation_->waves();
+        if (!waves)
+          return;
+        const algebra::SymbolRange range = algebra::Symbol(*waves).range();
+        if (range.least < -rounding * range.largest)
+          of_method_.set(growing_waves, range.least / scene_.time.density, "1/time^2");
       }
 
       void solve_reference()

@@ -43,6 +43,9 @@ namespace plumbline::study
 
   inline const std::string time_error = "nodal L2 | time";
 
+  /// The least ω² [1/time^2] of plane waves on the lattice, where it is negative.
+  inline const std::string growing_waves = "least squared frequency";
+
   /// The beginning of the names of facts about what was left out.
   inline const std::string left_out_of_model = "left out: ";
 

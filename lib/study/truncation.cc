@@ -7,6 +7,7 @@
 #include "method/linear_equations.h"
 #include "scene/choices.h"
 #include "scene/study_sections.h"
+#include "study/motion_norms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,23 @@ namespace plumbline::study
       double load = 0;
       double round_off = 0; ///< up to which size |τ| is round-off
     };
+
+    /// How much larger the norm "nodal L2" of a field may be than √(Σ volume |e|²).
+    double nodal_over_volumes(const method::LinearEquations<2> &of,
+                              const problem::Problem<2> &problem)
+    {
+      const double least = *std::min_element(of.volumes.begin(), of.volumes.end());
+      return std::sqrt(area_of(problem) / static_cast<double>(of.n_free) / least);
+    }
+
+    /// Nodal norms in space are over volumes, or over cells that are all alike.
+    double nodal_over_volumes(const method::LinearEquations<3> &of,
+                              const problem::Problem<3> &problem)
+    {
+      (void)of;
+      (void)problem;
+      return 1;
+    }
 
     template <int dim>
     Truncation truncation(const method::LinearEquations<dim> &of, const problem::Field<dim> &u)
@@ -109,8 +127,15 @@ namespace plumbline::study
     analysis::Stability stability;
     if (has(Quantity::bound))
     {
-      stability = analysis::measure(method::discrete_operator(of));
-      record.set("smallest eigenvalue", stability.smallest, "b / u");
+      try
+      {
+        stability = analysis::measure(method::discrete_operator(of));
+        record.set("smallest eigenvalue", stability.smallest, "b / u");
+      }
+      catch (const NumericalError &)
+      {
+        // eigenvalues do not settle: no bound
+      }
       if (stability.inverse_norm > 0)
       {
         record.set("inverse norm", stability.inverse_norm, "u / b");
@@ -127,7 +152,8 @@ namespace plumbline::study
           return tau;
         if (scene::quantity(norm) != Quantity::bound || !(stability.inverse_norm > 0))
           return {};
-        return scene::is_largest(norm) ? stability.inverse_norm * tau : tau / stability.smallest;
+        return scene::is_largest(norm) ? stability.inverse_norm * tau
+                                       : nodal_over_volumes(of, problem) * tau / stability.smallest;
       };
       for (const scene::Norm norm : norms)
         if (const auto found_value = value(norm))

@@ -12,7 +12,8 @@ namespace plumbline::study
   /// The truncation error of a rule is by how much a field u fails its equations,
   /// τ_i = Σ_j a_ij u_j - b_i at each free node i, and relates to the nodal error e by A e = τ
   /// (Yang & Yin, theorem 4.1). Consistency and stability bound e: max|e| <= ‖A⁻¹‖∞ max|τ|, and in
-  /// L2 ‖e‖ <= ‖τ‖ / λ, λ the smallest eigenvalue of A's symmetric part.
+  /// L2 ‖e‖ <= ‖τ‖ / λ, λ the smallest eigenvalue of A's symmetric part; times √(max a/V) for the
+  /// norm "nodal L2" of the plane, in which each node has the same area a instead of its cell's V.
   ///
   /// Enter into the record of a meshfree rule those of the norms that are of truncation or of
   /// these bounds, against the solutions that are known, and what they are made of: "largest

@@ -170,7 +170,9 @@ namespace plumbline::report
     run.set("inverse norm", .15);
     run.set("bound Linf | exact", 4e-3);
     run.set("nodal Linf | exact", 1e-3);
+    run.set("smallest eigenvalue", 8);
     run.set("bound L2 | local", 4e-3); // without its error
+    run.set("truncation round-off", 1e-3);
     const Table table = bound_table(results);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.rows[0][5].text, "nodal L2 against local");
@@ -178,6 +180,9 @@ namespace plumbline::report
     EXPECT_EQ(table.rows[1][5].text, "nodal L∞ against exact");
     EXPECT_EQ(table.rows[1][6].text, "0.15");
     EXPECT_EQ(table.rows[1][9].text, "0.25");
+    EXPECT_EQ(table.rows[0][6].text, "0.125"); // in L2 the inverse of the eigenvalue
+    run.set("truncation round-off", 1);        // of the bound: .15
+    EXPECT_EQ(bound_table(results).rows[1][9].text, "–");
   }
 
   TEST(ReportTables, LeaveAFitThatWasNotMadeEmpty)

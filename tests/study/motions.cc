@@ -455,6 +455,25 @@ TEST(Motions, are_interrupted_between_steps)
   EXPECT_EQ(results.records[2].key.label(), "IPA-AC dt = 0.02");
 }
 
+// PDDO has negative eigenvalues at m = 3 and none at m = 2, though its moments are exact.
+TEST(Motions, of_rules_whose_waves_grow_are_no_result)
+{
+  const auto of = [](const std::string &m)
+  {
+    return run(wave("scalar", "sin(3*x)*cos(2*y)*cos(t)",
+                    {{"Methods/names", "PDDO, GMLS"}, {"Study/m", m}, {"Study/h", "0.2, 0.1"}}));
+  };
+  const StudyResults good = of("2"), bad = of("3");
+  EXPECT_TRUE(good.warnings.empty());
+  ASSERT_EQ(bad.warnings.size(), 1u);
+  EXPECT_EQ(bad.warnings[0].find("PDDO: waves grow at h = 0.2, the least ω² is -"), 0u)
+      << bad.warnings[0];
+  for (const auto *results : {&good, &bad})
+    for (const Trend &trend : results->trends)
+      EXPECT_EQ(trend.outcome == Outcome::failed, results == &bad && trend.method == "PDDO")
+          << trend.method << ", " << trend.error;
+}
+
 TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
 {
   const auto expect_refused = [](const Settings &settings, const std::string &fragment)

@@ -120,9 +120,12 @@ TEST(Truncation, times_the_norm_of_the_inverse_bounds_the_error)
                           {"Study/decisive error", "bound Linf | exact"},
                           {"Methods/names", "FA, IPA-AC, IPA-AC-R2"},
                           {"Study/h", "0.1, 0.05, 0.025"}};
-  Settings quadratic = norms;
+  Settings quadratic = norms, at_vertices = norms;
   quadratic.push_back({"Problem/solution", "x^2 + y^2"});
-  for (const auto &[settings, is_quadratic] : {std::pair(norms, false), {quadratic, true}})
+  at_vertices.push_back({"Problem/solution", "x^2 + y^2"});
+  at_vertices.push_back({"Methods/nodes", "vertices"}); // fewer nodes than cells
+  for (const auto &[settings, is_quadratic] :
+       {std::pair(norms, false), {quadratic, true}, {at_vertices, true}})
     for (const Record &record : results_of(settings).records)
     {
       const double bound = record["bound Linf | exact"], error = record["nodal Linf | exact"],
