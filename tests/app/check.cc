@@ -36,7 +36,7 @@ TEST(Check, finds_the_good_example_good)
   const Outcome outcome = check(nodes_file, bonds_file);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  expect_found(outcome.out, "64 free, 132 in the collar");
+  expect_found(outcome.out, "64 free, 132 in the interaction domain");
   expect_found(outcome.out, "m = 3: h = 0.125, horizon = 0.375");
   expect_found(outcome.out, "reproduces polynomials up to degree 3");
   expect_found(outcome.out, "second moments exact: asymptotically compatible");

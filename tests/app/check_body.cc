@@ -126,7 +126,7 @@ TEST(CheckBody, right_weights_pass_and_the_surface_effect_is_told)
 {
   const Outcome outcome = Body().check(free_boundary);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  expect_found(outcome.out, "256 free, 0 in the collar");
+  expect_found(outcome.out, "256 free, 0 in the interaction domain");
   expect_found(outcome.out, "no surface correction: bonds near free surfaces and cracks have the "
                             "weights of the interior");
   expect_found(outcome.out, "surface effect (156 families near surfaces; relative to the bulk");
