@@ -30,7 +30,7 @@ TEST(Ranks, agree_on_a_budget_on_lattices_and_say_that_they_repeat_the_work)
   // some solves take longer than the budget on one of the ranks and not on the other
   const Outcome outcome = run_on_two_ranks("run " + scene + " --budget 0.002");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, since lattices "
+  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, because "
                                "problems on lattices in the plane are not distributed"),
             1u)
       << outcome.err;
