@@ -154,6 +154,8 @@ namespace plumbline::report
     const fixture::Folder folder;
     const auto file = folder.path() / "dynamics.jsonl";
     Record record = run_of(2, 1. / 3, 1e-17 / 7, .25);
+    record.key.h = .1;
+    record.key.horizon = .3;
     record.set("critical step", std::numeric_limits<double>::infinity()); // there is none
     record.texts["limit"] = "incompatible";
     record.texts["reason of the limit"] = "its \"moments\"";
