@@ -1,6 +1,6 @@
 #pragma once
 
-#include "check/findings.h"
+#include "check/scene_findings.h"
 
 namespace plumbline::app
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "check/findings.h"
 #include "check/requirements.h"
+#include "check/scene_findings.h"
 #include "meshfree/check/bond_values.h"
 #include "report/tables.h"
 

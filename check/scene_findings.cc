@@ -1,4 +1,4 @@
-#include "check/findings.h"
+#include "check/scene_findings.h"
 
 #include "base/error.h"
 #include "base/number_text.h"

@@ -1,5 +1,8 @@
 #pragma once
 
+/** \dir
+    The check of another code's weights on a scene: findings, what is required of them, pages. */
+
 #include "meshfree/check/body_check.h"
 #include "meshfree/check/findings.h"
 #include "method/method.h"
