@@ -31,12 +31,6 @@ namespace plumbline::app
 
   namespace
   {
-    std::string text(double value)
-    {
-      constexpr int n_digits = 4;
-      return base::to_text(value, n_digits);
-    }
-
     /// The meshfree rules that the scene names, of which the first one confirms.
     method::Methods rules_of(const scene::Scene &scene, const method::Methods &methods)
     {
@@ -90,7 +84,7 @@ namespace plumbline::app
           throw NumericalError("nothing is certified: the bound of " + method +
                                " leaves not one digit certain at some points, relative to the "
                                "root mean square of u, " +
-                               text(certificate.size) + "; " + remedy);
+                               base::to_text(certificate.size, 4) + "; " + remedy);
       };
       require(certificate.least_digits(), certificate.galerkin.method,
               "give a finer mesh (--reference-level, Study/h) or a higher degree");

@@ -73,7 +73,7 @@ namespace plumbline::app
     const bool is_shared = repeated.size() < methods.size();
     if (!is_shared && all.rank() != 0)
     {
-      watch_interrupts(); // which are the first one's to heed
+      watch_interrupts(); // so that a signal does not end this rank; rank 0 handles it
       return 0;           // it does the work
     }
     const base::Communicator ranks = is_shared ? all : base::Communicator::alone();

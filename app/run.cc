@@ -107,8 +107,9 @@ namespace plumbline::app
     end_at_interrupts();
     const scene::Scene scene = read(options);
     if (options.is_estimate && options.json)
-      throw InputError("--estimate is a table for people, and results that --json prints are not "
-                       "there before a run; leave out one of them");
+      throw InputError(
+          "--estimate prints a text table and cannot be combined with --json, which prints "
+          "the results of a run; leave out one of them");
     if (options.is_estimate)
       return print_estimate(options, scene);
     if (scene.time.is_dynamic())

@@ -80,7 +80,8 @@ namespace plumbline::app
   int say_interrupted(const std::filesystem::path &folder, bool goes_on)
   {
     std::cerr << "interrupted: what is finished is in '" << folder.string()
-              << "'; the same command " << (goes_on ? "continues" : "starts anew") << '\n';
+              << "'; the same command "
+              << (goes_on ? "continues" : "starts again from the beginning") << '\n';
     return 130;
   }
 

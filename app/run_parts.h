@@ -24,8 +24,9 @@ namespace plumbline::app
                             "the results so far; press Ctrl-C again to stop at once\n");
   bool is_interrupted();
 
-  /// Says on the terminal where the results of an interrupted command are, which it takes over when
-  /// it is run again.
+  /// Says on the terminal where the results of an interrupted command are, and whether the same
+  /// command continues from them.
+  /// @param goes_on  it does; otherwise it starts again from the beginning
   /// @return  its exit code
   int say_interrupted(const std::filesystem::path &folder, bool goes_on = true);
 

@@ -66,8 +66,9 @@ namespace plumbline::check
   {
     if (found.noncentral.value > most_noncentral)
       throw InputError(
-          "forces are not along the bonds: " + base::to_percent(found.noncentral.value) +
-          " of the largest force constant is perpendicular to the bond of " +
+          "forces are not along the bonds: the block minus k n⊗n (n: direction of the bond) has "
+          "the norm " +
+          base::to_percent(found.noncentral.value) + " of the largest force constant for " +
           bond(found.noncentral, nodes) +
           ". The program is not bond-based, evaluates kernels at points other than the nodes, or "
           "its bonds are prestressed; probe a bond-based material in the undeformed state, or "
@@ -116,7 +117,7 @@ namespace plumbline::check
     out << "balance    " << number(found.imbalance)
         << " is the norm of the sum of all forces due to one displacement\n"
         << "direction  " << number(found.noncentral.value)
-        << " is the force component perpendicular to the bond\n"
+        << " is the norm of a block minus k n⊗n, n the direction of the bond\n"
         << "linearity  " << number(found.nonlinearity)
         << " is the change when the step is halved\n";
     constexpr std::size_t n_columns = 120, indent = 2;

@@ -33,8 +33,8 @@ namespace plumbline::geometry
   /// The mesh with each vertex inside Ω, and inside its collar, moved by up to `most` along each
   /// axis, uniformly, with a seed, the same on every machine; those on the surface of Ω and of the
   /// box that holds the mesh stay. A move is halved until no cell is left with less than a tenth of
-  /// its volume. As edges and faces are parallel in few pairs then, ExactPairs takes as long as on
-  /// any mesh.
+  /// its volume. Few pairs of faces then have parallel edges, which
+  /// would make ExactPairs slower.
   /// @param most  >= 0 [length]
   TetrahedralMesh with_moved_vertices(TetrahedralMesh mesh, double most, unsigned int seed);
 

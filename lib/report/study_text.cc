@@ -61,19 +61,24 @@ namespace plumbline::report
     std::string methods_by_verdict(const Table &verdicts)
     {
       const std::size_t method = column(verdicts, "method"), verdict = column(verdicts, "verdict"),
-                        n = verdicts.columns.size(),
+                        n = verdicts.columns.size(), scheme = column(verdicts, "scheme"),
                         series = std::min(column(verdicts, "series"), column(verdicts, "of"));
       if (std::max(method, verdict) == n)
         return {};
-      const bool has_series =
-          series < n && std::any_of(verdicts.rows.begin(), verdicts.rows.end(),
-                                    [&](const auto &row)
-                                    { return row[series].text != verdicts.rows[0][series].text; });
+      const auto varies = [&](std::size_t column)
+      {
+        return column < n && std::any_of(verdicts.rows.begin(), verdicts.rows.end(),
+                                         [&](const auto &row) {
+                                           return row[column].text != verdicts.rows[0][column].text;
+                                         });
+      };
+      const bool has_series = varies(series), has_schemes = varies(scheme);
       std::vector<std::pair<std::string, std::string>> found;
       for (const auto &row : verdicts.rows)
       {
-        const std::string name =
-            row[method].text + (has_series ? " (" + row[series].text + ")" : "");
+        const std::string name = row[method].text +
+                                 (has_schemes ? " with " + row[scheme].text : "") +
+                                 (has_series ? " (" + row[series].text + ")" : "");
         const auto same =
             std::find_if(found.begin(), found.end(),
                          [&](const auto &one) { return one.first == row[verdict].text; });

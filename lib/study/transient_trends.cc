@@ -60,6 +60,16 @@ namespace plumbline::study
       return norm_of_one(error, record["area of the domain"]) * record["extent of u"];
     }
 
+    /// How waves grow in a record; empty: they do not.
+    std::string growth_in(const Record &record)
+    {
+      constexpr int n_digits = 4;
+      return record.has(growing_waves)
+                 ? "waves grow at h = " + base::to_text(record.key.h, n_digits) +
+                       ", the least ω² is " + base::to_text(record[growing_waves], n_digits)
+                 : "";
+    }
+
     Trend over_levels(const scene::Scene &scene, const std::vector<const Record *> &records,
                       const std::string &error)
     {
@@ -73,7 +83,9 @@ namespace plumbline::study
       {
         if (!record->failure.empty())
           failure = record->failure;
-        else if (record->has(error))
+        else if (failure.empty())
+          failure = growth_in(*record);
+        if (record->failure.empty() && record->has(error))
         {
           trend.x.push_back(coordinate(trend.axis, record->key));
           trend.values.push_back((*record)[error]);
@@ -239,48 +251,26 @@ namespace plumbline::study
         leave_out("loads and constraint in time", "neither has t in it", "one set instead of 17");
     }
 
-    /// How waves grow in a record; empty: they do not.
-    std::string growth_in(const Record &record)
-    {
-      constexpr int n_digits = 4;
-      return record.has(growing_waves)
-                 ? "waves grow at h = " + base::to_text(record.key.h, n_digits) +
-                       ", the least ω² is " + base::to_text(record[growing_waves], n_digits)
-                 : "";
-    }
-
-    /// No trend of a method tells anything whose waves grow at one of its levels.
-    void fail_growing(StudyResults &results)
-    {
-      std::set<std::string> methods;
-      for (const Record &record : results.records)
-        if (const std::string growth = growth_in(record); !growth.empty())
-        {
-          for (Trend &trend : results.trends)
-            if (trend.method == record.key.method && trend.series == record.key.series)
-            {
-              trend.outcome = Outcome::failed;
-              trend.reason = growth;
-            }
-          if (methods.insert(record.key.method).second)
-            results.warnings.push_back(
-                record.key.method + ": " + growth +
-                ": the operator is not positive definite, and solutions grow with any time step. "
-                "Change the rule or the ratio horizon / h; 'plumbline dispersion' shows the waves");
-        }
-    }
-
-    /// One for each method whose operator is not symmetric at some level.
+    /// One for each method whose waves grow, or whose operator is not symmetric, at some level.
     void say_warnings(StudyResults &results)
     {
-      std::set<std::string> methods;
+      std::set<std::string> growing, methods;
       for (const Record &record : results.records)
+      {
+        if (const std::string growth = growth_in(record);
+            !growth.empty() && growing.insert(record.key.method).second)
+          results.warnings.push_back(
+              record.key.method + ": " + growth +
+              ": the operator is not positive definite, and these waves grow exponentially for "
+              "every time step. "
+              "Change the rule or the ratio horizon / h; 'plumbline dispersion' shows the waves");
         if (record["symmetric"] == 0 && methods.insert(record.key.method).second)
           results.warnings.push_back(
               record.key.method +
               ": the operator is not symmetric, because a bond has different weights at its two "
               "ends. The critical time step is that of the symmetric part. Complex eigenvalues can "
               "make the solution grow with any time step; 'plumbline stability' computes them.");
+      }
     }
   } // namespace
 
@@ -299,7 +289,6 @@ namespace plumbline::study
     }
     for (Trend &trend : orders(results.records))
       results.trends.push_back(std::move(trend));
-    fail_growing(results);
     say_facts(scene, results);
     say_omissions(scene, results);
     say_warnings(results);

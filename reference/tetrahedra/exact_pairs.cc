@@ -48,7 +48,8 @@ namespace plumbline::reference
       return result;
     }
 
-    /// A plane between them, across the line of their centres, shows that they are so far apart.
+    /// Whether their projections on the line through their centres are at least a horizon (1)
+    /// apart.
     bool are_out_of_reach(const PairFace &f, const PairFace &g)
     {
       const dealii::Tensor<1, 3> line = g.centre() - f.centre();
@@ -65,8 +66,8 @@ namespace plumbline::reference
     }
 
     /// Makes edges that are parallel to the digits of double so to all digits, by a move of a
-    /// vertex of g by a rounding of its coordinates. Faces that are not parallel have one such
-    /// pair.
+    /// vertex of g by a rounding of its coordinates. Faces that are not parallel have at most
+    /// one such pair.
     /// @return  whether there is one
     template <class Real>
     bool align(const FormFace<Real> &f, FormFace<Real> &g)
