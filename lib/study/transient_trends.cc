@@ -70,6 +70,38 @@ namespace plumbline::study
                  : "";
     }
 
+    /// Whether the finest step is no shorter than the coarsest one, so that the error in time
+    /// stays.
+    bool has_fixed_step(const std::vector<const Record *> &records)
+    {
+      constexpr double shorter = .9;
+      return records.back()->has("time step") && records.front()->has("time step") &&
+             (*records.back())["time step"] > shorter * (*records.front())["time step"];
+    }
+
+    /// A plateau may be the error of a step that is the same at all levels, and says nothing of the
+    /// method then, unless its moments prove a wrong limit or the error in time is known to be
+    /// less.
+    void doubt_fixed_step(Trend &trend, const std::vector<const Record *> &records)
+    {
+      constexpr double margin = 3; // between the plateau and the error in time
+      if (trend.outcome != Outcome::stalls || !has_fixed_step(records) ||
+          trend.proof.answer == LimitProof::Answer::incompatible)
+        return;
+      const Record &finest = *records.back();
+      const bool is_of_u = trend.error.find(base::word(scene::Norm::nodal_l2)) == 0;
+      const bool is_known = is_of_u && finest.has(time_error);
+      if (is_known && trend.values.back() > margin * finest[time_error])
+        return;
+      trend.outcome = Outcome::undecided;
+      trend.reason =
+          "the time step is the same at all levels and its error " +
+          (is_known ? "is " + base::to_text(finest[time_error], 2) : std::string("is not known")) +
+          ": it may be what stays. Shorten the step with h, take a scheme of higher order, or give "
+          "two steps in Time/steps to have the error in time measured; " +
+          trend.reason;
+    }
+
     Trend over_levels(const scene::Scene &scene, const std::vector<const Record *> &records,
                       const std::string &error)
     {
@@ -109,6 +141,8 @@ namespace plumbline::study
       if (scene.material.model->is_linear() ||
           trend.proof.answer == LimitProof::Answer::incompatible)
         weigh_proof(trend);
+      if (!trend.x.empty())
+        doubt_fixed_step(trend, records);
       trend.verdict = verdict_of(scene.study.regime, trend);
       return trend;
     }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 using namespace plumbline;
 using namespace plumbline::study;
@@ -478,6 +479,39 @@ TEST(Motions, of_rules_whose_waves_grow_are_no_result)
       EXPECT_EQ(trend.outcome == Outcome::failed, is_failed) << trend.method << ", " << trend.error;
       EXPECT_EQ(trend.verdict == "failed", is_failed) << trend.verdict;
     }
+}
+
+// At a fixed step the error in time of a first-order scheme stays where that in space falls: it is
+// no statement about R2. FA's moments are wrong at any step. Its error in time known, R2's plateau
+// is held against it.
+TEST(Motions, a_plateau_of_the_time_step_is_not_the_methods)
+{
+  const auto outcomes = [](const std::string &scheme, const std::string &steps)
+  {
+    const StudyResults results = run(wave("scalar", "sin(2*x + y - 3*t)",
+                                          {{"Methods/names", "FA, IPA-AC-R2"},
+                                           {"Time/final time", "0.25"},
+                                           {"Study/h", "0.2, 0.1, 0.05, 0.025"},
+                                           {"Study/m", "2"},
+                                           {"Time/schemes", scheme},
+                                           {"Time/steps", steps}}));
+    std::map<std::string, Trend> found;
+    for (const Trend &trend : over_levels(results))
+      if (trend.error == results.decisive_error)
+        found[trend.method] = trend;
+    return found;
+  };
+  for (const std::string steps : {"0.01", "0.01, 0.005"})
+  {
+    auto euler = outcomes("symplectic Euler", steps);
+    EXPECT_EQ(euler.at("FA").verdict, "not AC");
+    EXPECT_EQ(euler.at("IPA-AC-R2").verdict, "undecided") << euler.at("IPA-AC-R2").reason;
+    EXPECT_NE(euler.at("IPA-AC-R2")
+                  .reason.find(steps == "0.01" ? "its error is not known" : "its error is 0.0"),
+              std::string::npos)
+        << euler.at("IPA-AC-R2").reason;
+  }
+  EXPECT_EQ(outcomes("velocity Verlet", "0.002").at("IPA-AC-R2").verdict, "AC");
 }
 
 TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
