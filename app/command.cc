@@ -1,22 +1,23 @@
 #include "command.h"
 
-#include "analyse.h"
 #include "arguments.h"
 #include "base/communicator.h"
 #include "base/error.h"
-#include "certify.h"
-#include "check.h"
+#include "base/number_list.h"
+#include "check/moduli.h"
 #include "check/requirements.h"
+#include "check/rule_weights.h"
+#include "driver/certify.h"
+#include "driver/check.h"
+#include "driver/run.h"
+#include "driver/sample.h"
 #include "grade.h"
+#include "io/results_json.h"
 #include "list.h"
-#include "moduli.h"
-#include "new_scene.h"
 #include "parser_text.h"
 #include "probe.h"
-#include "run.h"
-#include "sample.h"
+#include "scene/new_scene.h"
 #include "unexpected.h"
-#include "weights.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -32,526 +33,548 @@
 #include <iostream>
 #include <memory>
 
-namespace
+namespace plumbline::app
 {
-  constexpr unsigned int most_levels = 1000; ///< more than any study has
+  using namespace driver;
 
-  std::vector<plumbline::scene::Override> to_overrides(const std::vector<std::string> &settings)
+  namespace
   {
-    std::vector<plumbline::scene::Override> overrides;
-    for (const std::string &setting : settings)
+    constexpr unsigned int most_levels = 1000; ///< more than any study has
+
+    std::vector<scene::Override> to_overrides(const std::vector<std::string> &settings)
     {
-      const auto equals = setting.find('=');
-      if (equals == std::string::npos)
-        throw plumbline::InputError("--set '" + setting +
-                                    "' has no '='; write --set Section/key=value");
-      overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+      std::vector<scene::Override> overrides;
+      for (const std::string &setting : settings)
+      {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos)
+          throw InputError("--set '" + setting + "' has no '='; write --set Section/key=value");
+        overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+      }
+      return overrides;
     }
-    return overrides;
-  }
 
-  /// On several ranks one of them says what all of them found.
-  int fail(const std::string &message, int exit_code)
-  {
-    if (plumbline::base::Communicator::all().rank() == 0)
-      std::cerr << "plumbline: " << message << '\n';
-    return exit_code;
-  }
-
-  /// What was printed has to be out before the exit code says that all is good.
-  int finish_output(int exit_code)
-  {
-    errno = 0;
-    std::cout.flush();
-    if (std::cout)
+    /// On several ranks one of them says what all of them found.
+    int fail(const std::string &message, int exit_code)
+    {
+      if (base::Communicator::all().rank() == 0)
+        std::cerr << "plumbline: " << message << '\n';
       return exit_code;
-    if (errno == 0) // it failed before: ask again why
-    {
-      std::cout.clear();
-      std::cout << ' ' << std::flush;
     }
-    const int reason = errno;
-    return fail(
-        "standard output cannot be written" +
-            (reason == 0 ? std::string() : std::string(" (") + std::strerror(reason) + ")") +
-            ", what was printed is not whole; free some space, or send it elsewhere",
-        3);
-  }
 
-  using namespace plumbline::app;
+    /// What was printed has to be out before the exit code says that all is good.
+    int finish_output(int exit_code)
+    {
+      errno = 0;
+      std::cout.flush();
+      if (std::cout)
+        return exit_code;
+      if (errno == 0) // it failed before: ask again why
+      {
+        std::cout.clear();
+        std::cout << ' ' << std::flush;
+      }
+      const int reason = errno;
+      return fail(
+          "standard output cannot be written" +
+              (reason == 0 ? std::string() : std::string(" (") + std::strerror(reason) + ")") +
+              ", what was printed is not whole; free some space, or send it elsewhere",
+          3);
+    }
 
-  /// What the command line asks for.
-  struct Request
-  {
-    std::vector<std::string> settings; ///< of --set
-    unsigned int n_threads = 0;        ///< 0: one for each core
-    bool is_for_all_ranks = false;     ///< else the first rank does it
-    std::function<int()> action;       ///< gives the exit code
-  };
+    /// What the command line asks for.
+    struct Request
+    {
+      std::vector<std::string> settings; ///< of --set
+      unsigned int n_threads = 0;        ///< 0: one for each core
+      bool is_for_all_ranks = false;     ///< else the first rank does it
+      std::function<int()> action;       ///< gives the exit code
+    };
 
-  /// What a command that is chosen does with its options.
-  template <class Options, class Action>
-  void set_action(CLI::App &command, Request &request, const std::shared_ptr<Options> &options,
-                  Action action, bool is_for_all_ranks = false)
-  {
-    command.callback(
-        [=, &request]
-        {
-          request.is_for_all_ranks = is_for_all_ranks;
-          request.action = [=, &request]
+    /// What a command that is chosen does.
+    void set_action(CLI::App &command, Request &request, const std::function<int()> &action,
+                    bool is_for_all_ranks = false)
+    {
+      command.callback(
+          [=, &request]
+          {
+            request.is_for_all_ranks = is_for_all_ranks;
+            request.action = action;
+          });
+    }
+
+    /// The same of one that reads a scene, whose keys --set overrides.
+    template <class Options, class Action>
+    void set_action(CLI::App &command, Request &request, const std::shared_ptr<Options> &options,
+                    Action action, bool is_for_all_ranks = false)
+    {
+      set_action(
+          command, request,
+          [=, &request]
           {
             options->overrides = to_overrides(request.settings);
             return action(*options);
-          };
-        });
-  }
+          },
+          is_for_all_ranks);
+    }
 
-  void add_run(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<RunOptions>();
-    auto &run = *app.add_subcommand("run", "Run a scene and write its report");
-    run.add_option("SCENE", options->scene_file, "Scene file (.prm or .json)")->required();
-    run.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
-    run.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
-    run.add_option("--methods", options->methods,
-                   "Methods, comma separated; overrides Methods/names");
-    run.add_option("--model", options->model, "smallest (only what the scene needs) or full");
-    run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep")
-        ->check(CLI::Range(1u, most_levels));
-    run.add_option(
-        "--budget", options->budget,
-        "Leave out what is expected to take more CPU seconds, of one method at one level");
-    run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
-    run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
-    run.add_flag("--quiet", options->quiet, "Print nothing but errors");
-    run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
-    run.add_flag("--estimate", options->is_estimate,
-                 "Print the estimated peak memory of each rank by method and level, and exit "
-                 "without running");
-    set_action(run, request, options, plumbline::app::run, true);
-  }
-
-  void add_check(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<CheckOptions>();
-    auto &check =
-        *app.add_subcommand("check", "Check the weights of another code: a page of their defects");
-    check
-        .add_option(
-            "NODES", options->nodes_file,
-            "Its nodes: CSV with id,x,y,volume; with {h} in the name, a file for each level")
-        ->required();
-    check.add_option("BONDS", options->bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
-        ->required();
-    check.add_option("--scene", options->scene_file, "Scene file (.prm or .json)")->required();
-    check.add_option(
-        "-o,--output", options->output,
-        "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
-    check.add_option("--bonds-are", options->bonds_are,
-                     "What the column weight holds: weights (default), stiffness (C weight: force "
-                     "density per length) or 'force constants' (V_i C weight: force per length)");
-    check.add_option("--boundary", options->boundary,
-                     "constrained (default): u is prescribed around the domain. free: the boundary "
-                     "of the domain is a free surface, where families are truncated");
-    check
-        .add_option("--crack", options->cracks,
-                    "A crack that no bond may cross: 'x0, y0 : x1, y1', with more points for "
-                    "bends; may be repeated")
-        ->allow_extra_args(false);
-    check.add_option("--require", options->required, plumbline::check::requirements_help)
-        ->allow_extra_args(false);
-    check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
-    check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
-    check.add_flag("--quiet", options->quiet, "Print nothing but errors, write nothing without -o");
-    check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
-    set_action(check, request, options, plumbline::app::check, true);
-  }
-
-  void add_probe(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<ProbeOptions>();
-    auto &probe =
-        *app.add_subcommand("probe", "Derive bonds for 'check' from the forces of another program");
-    probe.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y[,z],volume")
-        ->required();
-    probe
-        .add_option("--command", options->command,
-                    "Computes forces: reads the file {nodes} (id,x,y[,z],ux,uy[,uz]) and writes "
-                    "the file {forces} ([id,]fx,fy[,fz])")
-        ->required();
-    probe.add_option("--horizon", options->horizon, "Length of the longest bonds")->required();
-    probe.add_option("-o,--output", options->output, "Bonds file (default: bonds.csv)");
-    probe.add_option("--nodes", options->n_nodes,
-                     "Number of nodes to displace, those nearest to the centre; nodes at the same "
-                     "distance as the last one are included (default: 2)");
-    probe.add_flag("--all", options->all, "Displace all nodes");
-    probe.add_option("--step", options->step,
-                     "Length of the displacements (default: 1e-5 horizons)");
-    probe.add_option("--forces-are", options->forces_are,
-                     "forces (default) or densities: forces per volume");
-    probe.add_flag("--quiet", options->quiet, "Print nothing but errors");
-    set_action(probe, request, options, plumbline::app::probe);
-  }
-
-  /// `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take the same.
-  CLI::App &add_measuring(CLI::App &app, const std::string &name, const std::string &help,
-                          MeasureOptions &options, Request &request)
-  {
-    auto &command = *app.add_subcommand(name, help);
-    command.add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
-    command.add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
-    command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
-    command.add_option("--methods", options.methods,
-                       "Methods, comma separated; overrides Methods/names");
-    command.add_option("--levels", options.n_levels, "Only the first N levels of each sweep")
-        ->check(CLI::Range(1u, most_levels));
-    command.add_flag("--quiet", options.quiet, "Print nothing but errors");
-    command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
-    return command;
-  }
-
-  constexpr auto angles_option = "--angles", directions_option = "--directions";
-
-  /// An analysis that returns records.
-  /// @param expected  what --check checks
-  CLI::App &add_analysis(CLI::App &app, Request &request, const std::string &name,
-                         const std::string &help, const std::string &expected, const MakeRow &row)
-  {
-    const auto options = std::make_shared<AnalyseOptions>();
-    auto &command = add_measuring(app, name, help, *options, request);
-    command.add_flag("--check", options->check, "Exit with 1 if " + expected);
-    command.add_option("--budget", options->budget,
-                       "Leave out what is expected to take more CPU seconds, of one method at one "
-                       "level");
-    command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
-    set_action(command, request, options,
-               [row](const AnalyseOptions &given) { return analyse(row, given); });
-    return command;
-  }
-
-  void add_dispersion(CLI::App &app, Request &request)
-  {
-    const auto angles = std::make_shared<std::vector<std::string>>(),
-               directions = std::make_shared<std::vector<std::string>>();
-    auto &command =
-        add_analysis(app, request, "dispersion",
-                     "Dispersion analysis: wave speeds and critical time steps of each method",
-                     "Expected/values fails",
-                     [angles, directions](const auto &)
-                     {
-                       plumbline::study::AskedDirections asked;
-                       if (!angles->empty())
-                         asked.angles = to_numbers(angles_option, *angles);
-                       if (!directions->empty())
-                         asked.vectors = to_vectors(directions_option, *directions);
-                       return dispersion_row(asked);
-                     });
-    command
-        .add_option(angles_option, *angles,
-                    "In two dimensions: directions in degrees, separated by commas, semicolons or "
-                    "blanks (default: 0,22.5,45); may be repeated")
-        ->allow_extra_args(false);
-    command
-        .add_option(directions_option, *directions,
-                    "In three dimensions: direction vectors, three numbers each (default: 1,0,0 "
-                    "1,1,0 1,1,1); "
-                    "may be repeated")
-        ->allow_extra_args(false);
-  }
-
-  void add_sample(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<SampleOptions>();
-    auto &command = add_measuring(app, "sample",
-                                  "Uncertainty quantification: means, deviations, errors and costs",
-                                  *options, request);
-    command.add_flag("--check", options->check, "Exit with 1 if Expected/sampling fails");
-    command
-        .add_option("--jobs", options->n_jobs, "Number of parallel sampling processes (default: 1)")
-        ->check(CLI::Range(1u, 4096u));
-    command.add_option("--threads", options->n_threads,
-                       "Threads of each process (default: all cores, shared among them)");
-    command.add_flag("--worker", options->is_worker)->group(""); // what it begins itself
-    set_action(command, request, options, sample, true);
-    command.parse_complete_callback(
-        [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });
-  }
-
-  void add_moduli(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<ModuliOptions>();
-    auto &command = *app.add_subcommand(
-        "moduli", "Elastic constants of meshfree rules on square or cubic lattices");
-    command.add_option("--kernel", options->kernel,
-                       "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
-    command.add_option("--state", options->state,
-                       "stress (plane stress, default), strain (plane strain) or 3D");
-    command
-        .add_option(ratios_option, options->ratios,
-                    "Horizons over mesh size, separated by commas, semicolons or blanks (default: "
-                    "2,3,4,5); may be repeated")
-        ->allow_extra_args(false);
-    command.add_option("--E", options->E, "Young's modulus of the material (default: 1)");
-    command.add_option("--rules", options->rules, "Rules, comma separated (default: all)");
-    command.add_flag("--json", options->json, "Print records instead of the table");
-    set_action(command, request, options, moduli);
-  }
-
-  void add_weights(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<WeightsOptions>();
-    auto &command =
-        *app.add_subcommand("weights", "Weights of a rule on a square or cubic lattice, as CSV");
-    command.add_option("RULE", options->rule, "Rule, see 'plumbline list methods'")->required();
-    command.add_option("--m", options->m, "Horizon over mesh size (default: 3)");
-    command.add_option("--h", options->h, "Mesh size (default: 1)");
-    command.add_option("--kernel", options->kernel,
-                       "Kernel type (default: linear-decay), see 'plumbline list kernels'");
-    command.add_option("--dimension", options->dimension, "2 (default) or 3");
-    set_action(command, request, options, weights);
-  }
-
-  void add_certify(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<CertifyOptions>();
-    auto &command = *app.add_subcommand(
-        "certify", "Certify values of a solution by two independent methods with error bounds");
-    command
-        .add_option("SCENE", options->scene_file,
-                    "Scene file (.prm or .json) with Output/points, Reference/method and a "
-                    "meshfree rule")
-        ->required();
-    command.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
-    command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
-    command
-        .add_option("--reference-level", options->reference_level,
-                    "Level of the scene whose mesh size the Galerkin method takes; 1 is the "
-                    "coarsest (default: the finest)")
-        ->check(CLI::Range(1u, most_levels));
-    command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
-    command.add_flag("--quiet", options->quiet, "Print nothing but errors");
-    command.add_flag("--json", options->json, "Print certificate.json instead of the table");
-    set_action(command, request, options, certify, true);
-  }
-
-  void add_grade(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<GradeOptions>();
-    auto &command = *app.add_subcommand(
-        "grade", "Grade the values of another code against a certificate: digits, order, limit");
-    command.add_option("FILE", options->files,
-                       "Values of your code at the certified points: CSV with x,y,u of a scalar, "
-                       "x,y,u,v or x,y,u1,u2 of a vector, in three dimensions x,y,z and u or "
-                       "u1,u2,u3; a file for each grid");
-    command
-        .add_option("--problem", options->problem,
-                    "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "
-                    "certificate.json of 'certify'")
-        ->required();
-    command
-        .add_option(sizes_option, options->h,
-                    "Mesh size of each file, separated by commas, semicolons or blanks; may be "
-                    "repeated")
-        ->allow_extra_args(false);
-    command
-        .add_option("--require", options->required,
-                    "digits=N, order=P, limit=certified, separated by commas: exit with 1 if one "
-                    "does not hold on the finest grid")
-        ->allow_extra_args(false);
-    command.add_flag("--points", options->is_points,
-                     "Print the points of the problem as CSV, for your code to read");
-    command.add_flag("--scene", options->is_scene, "Print the scene of the problem");
-    command.add_flag("--quiet", options->quiet, "Print nothing but errors");
-    set_action(command, request, options, grade);
-  }
-
-  int print(const std::string &text)
-  {
-    std::cout << text;
-    return 0;
-  }
-
-  /// What takes one word and prints or writes something about it.
-  void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
-                const std::string &word, const std::string &word_help,
-                const std::function<int(const std::string &)> &action)
-  {
-    const auto text = std::make_shared<std::string>();
-    auto &command = *app.add_subcommand(name, help);
-    command.add_option(word, *text, word_help)->required();
-    command.callback([=, &request] { request.action = [=] { return action(*text); }; });
-  }
-
-  void add_words(CLI::App &app, Request &request)
-  {
-    add_word(app, request, "report",
-             "Rebuild tables, charts and page from the numbers of a run, also of one that was "
-             "killed",
-             "DIR", "Output folder of a run", rebuild_report);
-    const auto as_matrix = std::make_shared<bool>(false);
-    add_word(app, request, "list",
-             "List methods, models, analyses, kernels, scenes or certified problems", "WHAT",
-             "methods, models, analyses, kernels, scenes or problems",
-             [=](const std::string &what)
-             {
-               plumbline::app::list(what, *as_matrix);
-               return 0;
-             });
-    app.get_subcommand("list")->add_flag("--matrix", *as_matrix,
-                                         "Capabilities of methods, as a table");
-    const auto is_short = std::make_shared<bool>(false);
-    add_word(app, request, "template", "Print a scene with every key and its help", "MODEL",
-             "scalar, tensor, LPS, variational or double-well",
-             [=](const std::string &model)
-             {
-               return print(*is_short ? plumbline::scene::short_template(model)
-                                      : plumbline::scene::scene_template(model));
-             });
-    app.get_subcommand("template")->add_flag("--short", *is_short, "A scene of at most 20 lines");
-    add_word(app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
-             "Section/key, Section, or words to search for in the help of all keys",
-             [](const std::string &key) { return print(plumbline::scene::describe(key)); });
-  }
-
-  void add_new(CLI::App &app, Request &request)
-  {
-    const auto options = std::make_shared<NewSceneOptions>();
-    auto &command = *app.add_subcommand("new", "Write a short scene to start from");
-    command.add_option("NAME", options->name, "Scene file; .prm may be left out")->required();
-    command.add_option("--kind", options->kind,
-                       "scalar (default), elastic, LPS, variational or double-well");
-    command.add_option("--domain", options->domain,
-                       "square (default), cube, or a mesh file (.geo or .msh)");
-    command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
-    command.add_option("--methods", options->methods,
-                       "Methods, comma separated, see 'plumbline list methods'");
-    command.callback([=, &request] { request.action = [=] { return write_new_scene(*options); }; });
-  }
-
-  /// @param topic  a command, what 'plumbline list' lists, a key, or words
-  int help(const CLI::App &app, const std::string &topic)
-  {
-    const std::string text = help_text(app, topic);
-    if (text.empty() && is_listed(topic))
+    int print(const std::string &text)
     {
-      plumbline::app::list(topic, false);
+      std::cout << text;
       return 0;
     }
-    return print(text.empty() ? plumbline::scene::describe(topic) : text);
-  }
 
-  /// Commands about the command itself.
-  void add_own(CLI::App &app, Request &request)
-  {
-    add_word(app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
-             "A command, methods, models, analyses, kernels, scenes, problems, or a key as in "
-             "describe",
-             [&app](const std::string &topic) { return help(app, topic); });
-    app.get_subcommand("help")->get_option("TOPIC")->required(false);
-    add_word(app, request, "completion", "Print a script that completes commands and options",
-             "SHELL", "bash or zsh",
-             [&app](const std::string &shell) { return print(completion(app, shell)); });
-    app.add_subcommand("man", "Print the page for man")
-        ->callback([&]
-                   { request.action = [&] { return print(man_page(app, PLUMBLINE_VERSION)); }; });
-  }
+    void add_run(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<RunOptions>();
+      auto &run = *app.add_subcommand("run", "Run a scene and write its report");
+      run.add_option("SCENE", options->scene_file, "Scene file (.prm or .json)")->required();
+      run.add_option("-o,--output", options->output, "Output folder (default: results/<scene>)");
+      run.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+      run.add_option("--methods", options->methods,
+                     "Methods, comma separated; overrides Methods/names");
+      run.add_option("--model", options->model, "smallest (only what the scene needs) or full");
+      run.add_option("--levels", options->n_levels, "Only the first N levels of each sweep")
+          ->check(CLI::Range(1u, most_levels));
+      run.add_option(
+          "--budget", options->budget,
+          "Leave out what is expected to take more CPU seconds, of one method at one level");
+      run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
+      run.add_flag("--quiet", options->quiet, "Print nothing but errors");
+      run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
+      run.add_flag("--estimate", options->is_estimate,
+                   "Print the estimated peak memory of each rank by method and level, and exit "
+                   "without running");
+      set_action(run, request, options, driver::run, true);
+    }
 
-  void add_commands(CLI::App &app, Request &request)
-  {
-    app.set_version_flag("--version", PLUMBLINE_VERSION);
-    app.require_subcommand(1);
-    app.ignore_case(); // of commands, as they are added
-    add_run(app, request);
-    add_check(app, request);
-    add_probe(app, request);
-    add_analysis(app, request, "stability",
-                 "Stability analysis: eigenvalues, signs, modes, weights, time steps",
-                 "Expected/stability fails", [](const auto &) { return stability_row(); });
-    add_dispersion(app, request);
-    add_analysis(app, request, "crack",
-                 "Dynamic fracture of a notched strip: tip, energies, contour plots",
-                 "Expected/crack fails", crack_row);
-    add_analysis(app, request, "grow",
-                 "Quasi-static fracture, bond by bond: load, energies, contour plots",
-                 "Expected/growth or growth ends fails, or the balance of energy", growth_row);
-    add_analysis(
-        app, request, "strip", "Stationary crack: tip energy by meshfree and Galerkin methods",
-        "Expected/strip fails, or a strip is too short", [](const auto &) { return strip_row(); });
-    add_sample(app, request);
-    add_certify(app, request);
-    add_grade(app, request);
-    add_moduli(app, request);
-    add_weights(app, request);
-    add_words(app, request);
-    add_new(app, request);
-    add_own(app, request);
-  }
+    void add_check(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<CheckOptions>();
+      auto &check = *app.add_subcommand(
+          "check", "Check the weights of another code: a page of their defects");
+      check
+          .add_option(
+              "NODES", options->nodes_file,
+              "Its nodes: CSV with id,x,y,volume; with {h} in the name, a file for each level")
+          ->required();
+      check.add_option("BONDS", options->bonds_file, "Its bonds: CSV with i,j,weight[,qx,qy]")
+          ->required();
+      check.add_option("--scene", options->scene_file, "Scene file (.prm or .json)")->required();
+      check.add_option(
+          "-o,--output", options->output,
+          "Output folder (default: results/check_<scene>; with --json or --quiet: none)");
+      check.add_option(
+          "--bonds-are", options->bonds_are,
+          "What the column weight holds: weights (default), stiffness (C weight: force "
+          "density per length) or 'force constants' (V_i C weight: force per length)");
+      check.add_option(
+          "--boundary", options->boundary,
+          "constrained (default): u is prescribed around the domain. free: the boundary "
+          "of the domain is a free surface, where families are truncated");
+      check
+          .add_option("--crack", options->cracks,
+                      "A crack that no bond may cross: 'x0, y0 : x1, y1', with more points for "
+                      "bends; may be repeated")
+          ->allow_extra_args(false);
+      check.add_option("--require", options->required, check::requirements_help)
+          ->allow_extra_args(false);
+      check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+      check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      check.add_flag("--quiet", options->quiet,
+                     "Print nothing but errors, write nothing without -o");
+      check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
+      set_action(check, request, options, driver::check, true);
+    }
 
-  /// What is asked for, by all ranks or the first, and its exit code.
-  int act(const Request &request)
+    void add_probe(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<ProbeOptions>();
+      auto &probe = *app.add_subcommand(
+          "probe", "Derive bonds for 'check' from the forces of another program");
+      probe.add_option("NODES", options->nodes_file, "Its nodes: CSV with id,x,y[,z],volume")
+          ->required();
+      probe
+          .add_option("--command", options->command,
+                      "Computes forces: reads the file {nodes} (id,x,y[,z],ux,uy[,uz]) and writes "
+                      "the file {forces} ([id,]fx,fy[,fz])")
+          ->required();
+      probe.add_option("--horizon", options->horizon, "Length of the longest bonds")->required();
+      probe.add_option("-o,--output", options->output, "Bonds file (default: bonds.csv)");
+      probe.add_option(
+          "--nodes", options->n_nodes,
+          "Number of nodes to displace, those nearest to the centre; nodes at the same "
+          "distance as the last one are included (default: 2)");
+      probe.add_flag("--all", options->all, "Displace all nodes");
+      probe.add_option("--step", options->step,
+                       "Length of the displacements (default: 1e-5 horizons)");
+      probe.add_option("--forces-are", options->forces_are,
+                       "forces (default) or densities: forces per volume");
+      probe.add_flag("--quiet", options->quiet, "Print nothing but errors");
+      set_action(probe, request, [=] { return app::probe(*options); });
+    }
+
+    /// `stability`, `dispersion`, `crack`, `grow`, `strip` and `sample` take the same.
+    CLI::App &add_measuring(CLI::App &app, const std::string &name, const std::string &help,
+                            SceneOptions &options, Request &request)
+    {
+      auto &command = *app.add_subcommand(name, help);
+      command.add_option("SCENE", options.scene_file, "Scene file (.prm or .json)")->required();
+      command.add_option("-o,--output", options.output, "Output folder (default: results/<scene>)");
+      command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+      command.add_option("--methods", options.methods,
+                         "Methods, comma separated; overrides Methods/names");
+      command.add_option("--levels", options.n_levels, "Only the first N levels of each sweep")
+          ->check(CLI::Range(1u, most_levels));
+      command.add_flag("--quiet", options.quiet, "Print nothing but errors");
+      command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
+      return command;
+    }
+
+    constexpr auto angles_option = "--angles", directions_option = "--directions";
+
+    /// Of waves, as they are given.
+    struct DirectionWords
+    {
+      std::vector<std::string> angles, vectors;
+
+      study::AskedDirections read() const
+      {
+        study::AskedDirections asked;
+        if (!angles.empty())
+          asked.angles = base::to_numbers(angles_option, angles);
+        if (!vectors.empty())
+          asked.vectors = base::to_vectors(directions_option, vectors);
+        return asked;
+      }
+    };
+
+    void add_directions(CLI::App &command, DirectionWords &words)
+    {
+      command
+          .add_option(
+              angles_option, words.angles,
+              "In two dimensions: directions in degrees, separated by commas, semicolons or "
+              "blanks (default: 0,22.5,45); may be repeated")
+          ->allow_extra_args(false);
+      command
+          .add_option(directions_option, words.vectors,
+                      "In three dimensions: direction vectors, three numbers each (default: 1,0,0 "
+                      "1,1,0 1,1,1); may be repeated")
+          ->allow_extra_args(false);
+    }
+
+    void add_analysis(CLI::App &app, Request &request, const AnalysisRow &row)
+    {
+      const auto options = std::make_shared<AnalyseOptions>();
+      const auto words = std::make_shared<DirectionWords>();
+      auto &command = add_measuring(app, row.name, row.help, *options, request);
+      command.add_flag("--check", options->check, "Exit with 1 if " + row.expected);
+      command.add_option(
+          "--budget", options->budget,
+          "Leave out what is expected to take more CPU seconds, of one method at one level");
+      command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      if (row.takes_directions)
+        add_directions(command, *words);
+      set_action(command, request, options,
+                 [&row, words](AnalyseOptions given)
+                 {
+                   given.directions = words->read();
+                   return analyse(row, given);
+                 });
+    }
+
+    void add_sample(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<SampleOptions>();
+      auto &command = add_measuring(
+          app, "sample", "Uncertainty quantification: means, deviations, errors and costs",
+          *options, request);
+      command.add_flag("--check", options->check, "Exit with 1 if Expected/sampling fails");
+      command
+          .add_option("--jobs", options->n_jobs,
+                      "Number of parallel sampling processes (default: 1)")
+          ->check(CLI::Range(1u, 4096u));
+      command.add_option("--threads", options->n_threads,
+                         "Threads of each process (default: all cores, shared among them)");
+      command.add_flag("--worker", options->is_worker)->group(""); // what it begins itself
+      set_action(command, request, options, sample, true);
+      command.parse_complete_callback(
+          [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });
+    }
+
+    void add_moduli(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<check::ModuliOptions>();
+      const auto is_json = std::make_shared<bool>(false);
+      auto &command = *app.add_subcommand(
+          "moduli", "Elastic constants of meshfree rules on square or cubic lattices");
+      command.add_option("--kernel", options->kernel,
+                         "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
+      command.add_option("--state", options->state,
+                         "stress (plane stress, default), strain (plane strain) or 3D");
+      command
+          .add_option(
+              check::ratios_option, options->ratios,
+              "Horizons over mesh size, separated by commas, semicolons or blanks (default: "
+              "2,3,4,5); may be repeated")
+          ->allow_extra_args(false);
+      command.add_option("--E", options->E, "Young's modulus of the material (default: 1)");
+      command.add_option("--rules", options->rules, "Rules, comma separated (default: all)");
+      command.add_flag("--json", *is_json, "Print records instead of the table");
+      set_action(command, request,
+                 [=]
+                 {
+                   const auto found = check::moduli_of_rules(*options);
+                   return print(*is_json ? io::to_json(found)
+                                         : report::study_text(check::moduli_view(found), found));
+                 });
+    }
+
+    void add_weights(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<check::RuleOnLattice>();
+      auto &command =
+          *app.add_subcommand("weights", "Weights of a rule on a square or cubic lattice, as CSV");
+      command.add_option("RULE", options->rule, "Rule, see 'plumbline list methods'")->required();
+      command.add_option("--m", options->m, "Horizon over mesh size (default: 3)");
+      command.add_option("--h", options->h, "Mesh size (default: 1)");
+      command.add_option("--kernel", options->kernel,
+                         "Kernel type (default: linear-decay), see 'plumbline list kernels'");
+      command.add_option("--dimension", options->dimension, "2 (default) or 3");
+      set_action(command, request, [=] { return print(check::weights_csv(*options)); });
+    }
+
+    void add_certify(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<CertifyOptions>();
+      auto &command = *app.add_subcommand(
+          "certify", "Certify values of a solution by two independent methods with error bounds");
+      command
+          .add_option("SCENE", options->scene_file,
+                      "Scene file (.prm or .json) with Output/points, Reference/method and a "
+                      "meshfree rule")
+          ->required();
+      command.add_option("-o,--output", options->output,
+                         "Output folder (default: results/<scene>)");
+      command.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
+      command
+          .add_option("--reference-level", options->reference_level,
+                      "Level of the scene whose mesh size the Galerkin method takes; 1 is the "
+                      "coarsest (default: the finest)")
+          ->check(CLI::Range(1u, most_levels));
+      command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      command.add_flag("--quiet", options->quiet, "Print nothing but errors");
+      command.add_flag("--json", options->json, "Print certificate.json instead of the table");
+      set_action(command, request, options, certify, true);
+    }
+
+    void add_grade(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<GradeOptions>();
+      auto &command = *app.add_subcommand(
+          "grade", "Grade the values of another code against a certificate: digits, order, limit");
+      command.add_option("FILE", options->files,
+                         "Values of your code at the certified points: CSV with x,y,u of a scalar, "
+                         "x,y,u,v or x,y,u1,u2 of a vector, in three dimensions x,y,z and u or "
+                         "u1,u2,u3; a file for each grid");
+      command
+          .add_option("--problem", options->problem,
+                      "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "
+                      "certificate.json of 'certify'")
+          ->required();
+      command
+          .add_option(sizes_option, options->h,
+                      "Mesh size of each file, separated by commas, semicolons or blanks; may be "
+                      "repeated")
+          ->allow_extra_args(false);
+      command
+          .add_option("--require", options->required,
+                      "digits=N, order=P, limit=certified, separated by commas: exit with 1 if one "
+                      "does not hold on the finest grid")
+          ->allow_extra_args(false);
+      command.add_flag("--points", options->is_points,
+                       "Print the points of the problem as CSV, for your code to read");
+      command.add_flag("--scene", options->is_scene, "Print the scene of the problem");
+      command.add_flag("--quiet", options->quiet, "Print nothing but errors");
+      set_action(command, request, [=] { return grade(*options); });
+    }
+
+    /// What takes one word and prints or writes something about it.
+    void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
+                  const std::string &word, const std::string &word_help,
+                  const std::function<int(const std::string &)> &action)
+    {
+      const auto text = std::make_shared<std::string>();
+      auto &command = *app.add_subcommand(name, help);
+      command.add_option(word, *text, word_help)->required();
+      set_action(command, request, [=] { return action(*text); });
+    }
+
+    void add_words(CLI::App &app, Request &request)
+    {
+      add_word(app, request, "report",
+               "Rebuild tables, charts and page from the numbers of a run, also of one that was "
+               "killed",
+               "DIR", "Output folder of a run", rebuild_report);
+      const auto as_matrix = std::make_shared<bool>(false);
+      add_word(app, request, "list",
+               "List methods, models, analyses, kernels, scenes or certified problems", "WHAT",
+               "methods, models, analyses, kernels, scenes or problems",
+               [=](const std::string &what)
+               {
+                 list(what, *as_matrix);
+                 return 0;
+               });
+      app.get_subcommand("list")->add_flag("--matrix", *as_matrix,
+                                           "Capabilities of methods, as a table");
+      const auto is_short = std::make_shared<bool>(false);
+      add_word(app, request, "template", "Print a scene with every key and its help", "MODEL",
+               "scalar, tensor, LPS, variational or double-well",
+               [=](const std::string &model) {
+                 return print(*is_short ? scene::short_template(model)
+                                        : scene::scene_template(model));
+               });
+      app.get_subcommand("template")->add_flag("--short", *is_short, "A scene of at most 20 lines");
+      add_word(app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
+               "Section/key, Section, or words to search for in the help of all keys",
+               [](const std::string &key) { return print(scene::describe(key)); });
+    }
+
+    void add_new(CLI::App &app, Request &request)
+    {
+      const auto options = std::make_shared<scene::NewSceneOptions>();
+      auto &command = *app.add_subcommand("new", "Write a short scene to start from");
+      command.add_option("NAME", options->name, "Scene file; .prm may be left out")->required();
+      command.add_option("--kind", options->kind,
+                         "scalar (default), elastic, LPS, variational or double-well");
+      command.add_option("--domain", options->domain,
+                         "square (default), cube, or a mesh file (.geo or .msh)");
+      command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
+      command.add_option("--methods", options->methods,
+                         "Methods, comma separated, see 'plumbline list methods'");
+      set_action(command, request,
+                 [=]
+                 {
+                   const std::string file = scene::write_new_scene(*options);
+                   return print("written: " + file + "; next: plumbline run " + file + '\n');
+                 });
+    }
+
+    /// @param topic  a command, what 'plumbline list' lists, a key, or words
+    int help(const CLI::App &app, const std::string &topic)
+    {
+      const std::string text = help_text(app, topic);
+      if (text.empty() && is_listed(topic))
+      {
+        list(topic, false);
+        return 0;
+      }
+      return print(text.empty() ? scene::describe(topic) : text);
+    }
+
+    /// Commands about the command itself.
+    void add_own(CLI::App &app, Request &request)
+    {
+      add_word(app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
+               "A command, methods, models, analyses, kernels, scenes, problems, or a key as in "
+               "describe",
+               [&app](const std::string &topic) { return help(app, topic); });
+      app.get_subcommand("help")->get_option("TOPIC")->required(false);
+      add_word(app, request, "completion", "Print a script that completes commands and options",
+               "SHELL", "bash or zsh",
+               [&app](const std::string &shell) { return print(completion(app, shell)); });
+      set_action(*app.add_subcommand("man", "Print the page for man"), request,
+                 [&app] { return print(man_page(app, PLUMBLINE_VERSION)); });
+    }
+
+    void add_commands(CLI::App &app, Request &request)
+    {
+      app.set_version_flag("--version", PLUMBLINE_VERSION);
+      app.require_subcommand(1);
+      app.ignore_case(); // of commands, as they are added
+      add_run(app, request);
+      add_check(app, request);
+      add_probe(app, request);
+      for (const AnalysisRow &row : analyses())
+        add_analysis(app, request, row);
+      add_sample(app, request);
+      add_certify(app, request);
+      add_grade(app, request);
+      add_moduli(app, request);
+      add_weights(app, request);
+      add_words(app, request);
+      add_new(app, request);
+      add_own(app, request);
+    }
+
+    /// What is asked for, by all ranks or the first, and its exit code.
+    int act(const Request &request)
+    {
+      // whatever one rank alone fails at, all of them end with it
+      const base::SeparateCommunicator ranks(base::Communicator::all());
+      constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
+      int exit_code = 0;
+      try
+      {
+        ranks.communicator().together(
+            [&]
+            {
+              if (request.is_for_all_ranks || ranks.communicator().rank() == 0)
+                exit_code = request.action();
+            },
+            patience);
+      }
+      catch (const InputError &error)
+      {
+        exit_code = fail(error.what(), 2);
+      }
+      catch (const NumericalError &error)
+      {
+        exit_code = fail(error.what(), 3);
+      }
+      catch (const std::exception &error)
+      {
+        exit_code = fail(explain_unexpected(error.what()), 3);
+      }
+      return exit_code;
+    }
+  } // namespace
+
+  int command(int argc, char **argv)
   {
-    // whatever one rank alone fails at, all of them end with it
-    const plumbline::base::SeparateCommunicator ranks(plumbline::base::Communicator::all());
-    constexpr double patience = 30; // of a rank that failed, with others that wait for it [s]
-    int exit_code = 0;
+    CLI::App app("Plumbline: verification of discretisations of nonlocal models and peridynamics.");
+    Request request;
+    add_commands(app, request);
     try
     {
-      ranks.communicator().together(
-          [&]
-          {
-            if (request.is_for_all_ranks || ranks.communicator().rank() == 0)
-              exit_code = request.action();
-          },
-          patience);
+      // CLI11 takes the last argument first, and no name with them
+      app.name(argv[0]);
+      std::vector<std::string> arguments =
+          join_numbers(join_numbers({argv + 1, argv + argc}, angles_option), directions_option);
+      std::reverse(arguments.begin(), arguments.end());
+      app.parse(std::move(arguments));
     }
-    catch (const plumbline::InputError &error)
+    catch (const CLI::Success &answer) // --help, --version
     {
-      exit_code = fail(error.what(), 2);
+      return finish_output(app.exit(answer));
     }
-    catch (const plumbline::NumericalError &error)
+    catch (const CLI::ParseError &error)
     {
-      exit_code = fail(error.what(), 3);
+      std::cerr << "plumbline: " << explain(error, app) << '\n';
+      return 2;
     }
-    catch (const std::exception &error)
-    {
-      exit_code = fail(explain_unexpected(error.what()), 3);
-    }
-    return exit_code;
+    // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
+    // another begins
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+      setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
+    // what deal.II's debug build finds is an error that is told, as of other builds
+    dealii::deal_II_exceptions::disable_abort_on_exception();
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(
+        argc, argv,
+        request.n_threads == 0 ? dealii::numbers::invalid_unsigned_int : request.n_threads);
+    return finish_output(act(request));
   }
-} // namespace
-
-int plumbline::app::command(int argc, char **argv)
-{
-  CLI::App app("Plumbline: verification of discretisations of nonlocal models and peridynamics.");
-  Request request;
-  add_commands(app, request);
-  try
-  {
-    // CLI11 takes the last argument first, and no name with them
-    app.name(argv[0]);
-    std::vector<std::string> arguments =
-        join_numbers(join_numbers({argv + 1, argv + argc}, angles_option), directions_option);
-    std::reverse(arguments.begin(), arguments.end());
-    app.parse(std::move(arguments));
-  }
-  catch (const CLI::Success &answer) // --help, --version
-  {
-    return finish_output(app.exit(answer));
-  }
-  catch (const CLI::ParseError &error)
-  {
-    std::cerr << "plumbline: " << explain(error, app) << '\n';
-    return 2;
-  }
-  // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
-  // another begins
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
-    setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
-  // what deal.II's debug build finds is an error that is told, as of other builds
-  dealii::deal_II_exceptions::disable_abort_on_exception();
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(
-      argc, argv,
-      request.n_threads == 0 ? dealii::numbers::invalid_unsigned_int : request.n_threads);
-  return finish_output(act(request));
-}
+} // namespace plumbline::app

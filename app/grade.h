@@ -1,7 +1,5 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <string>
 #include <vector>
 
@@ -11,13 +9,12 @@ namespace plumbline::app
 
   struct GradeOptions
   {
-    std::vector<std::string> files;    ///< see io::read_values()
-    std::string problem;               ///< see certificate_of()
-    std::vector<std::string> h;        ///< mesh size of each file, separated as to_numbers() says
-    std::vector<std::string> required; ///< digits=N, order=P, limit=certified
+    std::vector<std::string> files; ///< see io::read_values()
+    std::string problem;            ///< see io::certificate_of()
+    std::vector<std::string> h; ///< mesh size of each file, separated as base::to_numbers() says
+    std::vector<std::string> required;        ///< digits=N, order=P, limit=certified
     bool is_points = false, is_scene = false; ///< print these of the problem, and grade nothing
     bool quiet = false;
-    std::vector<scene::Override> overrides; ///< none
   };
 
   /// Grade another code's values by a certificate, see study::grade, and print the answer last.

@@ -4,8 +4,8 @@
 #include "base/error.h"
 #include "base/similar_words.h"
 #include "base/text_file.h"
-#include "certified_set.h"
-#include "methods.h"
+#include "driver/methods.h"
+#include "io/certified_set.h"
 #include "physics/kernel.h"
 #include "scene/capabilities.h"
 #include "scene/models/model.h"
@@ -73,7 +73,7 @@ namespace plumbline::app
 
     void list_methods()
     {
-      for (const auto &method : all_methods())
+      for (const auto &method : driver::all_methods())
         std::cout << std::left << std::setw(16) << method->name() << std::setw(11)
                   << base::word(method->family()) << method->help() << also_known_as(method->name())
                   << '\n';
@@ -88,7 +88,7 @@ namespace plumbline::app
 
     void list_scenes()
     {
-      const fs::path folder = scenes_folder(prefix_of_command());
+      const fs::path folder = io::scenes_folder(io::prefix_of_command());
       if (!fs::is_directory(folder))
         throw InputError("the scenes folder '" + folder.string() + "' is not there");
       std::set<fs::path> files;
@@ -102,9 +102,9 @@ namespace plumbline::app
     /// Those of the certified set.
     void list_problems()
     {
-      for (const std::string &name : certified_names(prefix_of_command()))
+      for (const std::string &name : io::certified_names(io::prefix_of_command()))
       {
-        const study::Certificate certificate = certificate_of(name, prefix_of_command());
+        const study::Certificate certificate = io::certificate_of(name, io::prefix_of_command());
         std::cout << certificate.purpose << "\n    " << certificate.points.size()
                   << " points to at least " << certificate.least_digits() << " digits by "
                   << certificate.galerkin.method << ", confirmed to "
@@ -125,7 +125,7 @@ namespace plumbline::app
     if (as_matrix && listed != Listed::methods)
       throw InputError("list --matrix is of methods, not of " + subject + "; leave it out");
     if (as_matrix)
-      std::cout << study::capability_table(all_methods());
+      std::cout << study::capability_table(driver::all_methods());
     else if (listed == Listed::methods)
       list_methods();
     else if (listed == Listed::models)

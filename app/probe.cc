@@ -1,12 +1,10 @@
 #include "probe.h"
 
-#include "base/csv.h"
 #include "base/error.h"
+#include "base/progress_line.h"
 #include "base/text_file.h"
 #include "check/probe_words.h"
-#include "meshfree/check/bond_file.h"
-#include "meshfree/check/weights_in_space.h"
-#include "run_parts.h"
+#include "driver/interrupts.h"
 
 #include <filesystem>
 #include <iostream>
@@ -14,52 +12,22 @@
 namespace plumbline::app
 {
   using check::ForceKind;
-  using check::ProgramNodes;
   using meshfree::ProbeFindings;
 
   namespace
   {
-    bool is_in_space(const std::string &file)
-    {
-      base::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
-      std::optional<double> first;
-      while (csv.has("z") && csv.next())
-      {
-        const double z = csv.number("z");
-        if (z != first.value_or(z))
-          return true;
-        first = z;
-      }
-      return false;
-    }
-
-    template <int dim>
-    ProgramNodes<dim> read_nodes(const std::string &file)
-    {
-      if constexpr (dim == 2)
-      {
-        const meshfree::GivenNodes nodes = meshfree::read_given_nodes(file);
-        return {nodes.id, nodes.places, nodes.volume};
-      }
-      else
-      {
-        const meshfree::WeightsInSpace nodes = meshfree::read_nodes_in_space(file);
-        return {nodes.id, nodes.places, nodes.volumes};
-      }
-    }
-
     template <int dim>
     int probe_in(const ProbeOptions &options, ForceKind kind)
     {
       constexpr double usual_step = 1e-5;
       if (std::filesystem::is_directory(options.output))
         throw InputError("-o " + options.output + " is a folder; give the name of a file");
-      const ProgramNodes<dim> nodes = read_nodes<dim>(options.nodes_file);
+      const check::ProgramNodes<dim> nodes = check::read_program_nodes<dim>(options.nodes_file);
       const auto plan = meshfree::plan_probe(
           nodes.places, {options.horizon, options.step.value_or(usual_step * options.horizon),
                          options.all ? nodes.id.size() : options.n_nodes});
-      const check::ForceProgram<dim> program(options.command, nodes, kind, is_interrupted);
-      watch_interrupts("\ninterrupted: stopping the force program\n");
+      const check::ForceProgram<dim> program(options.command, nodes, kind, driver::is_interrupted);
+      driver::watch_interrupts("\ninterrupted: stopping the force program\n");
       ProbeFindings found;
       {
         base::ProgressLine progress(!options.quiet);
@@ -89,11 +57,11 @@ namespace plumbline::app
     if (!kind)
       throw InputError("--forces-are = '" + options.forces_are +
                        "' is not known; choose one of 'forces', 'densities'");
-    end_at_interrupts();
+    driver::end_at_interrupts();
     try
     {
-      return is_in_space(options.nodes_file) ? probe_in<3>(options, *kind)
-                                             : probe_in<2>(options, *kind);
+      return check::is_in_space(options.nodes_file) ? probe_in<3>(options, *kind)
+                                                    : probe_in<2>(options, *kind);
     }
     catch (const check::Interrupted &)
     {

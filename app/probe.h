@@ -1,10 +1,7 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace plumbline::app
 {
@@ -19,7 +16,6 @@ namespace plumbline::app
     std::string forces_are = "forces"; ///< of base::words<check::ForceKind>
     std::string output = "bonds.csv";
     bool quiet = false;
-    std::vector<scene::Override> overrides; ///< none
   };
 
   /// Derive the force constants of another program's bonds from its forces, write them as bonds for

@@ -5,6 +5,8 @@
 #include "base/exec_words.h"
 #include "base/number_text.h"
 #include "base/text_file.h"
+#include "meshfree/check/bond_file.h"
+#include "meshfree/check/weights_in_space.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -258,4 +260,36 @@ namespace plumbline::check
 
   template class ForceProgram<2>;
   template class ForceProgram<3>;
+
+  bool is_in_space(const std::string &file)
+  {
+    base::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
+    std::optional<double> first;
+    while (csv.has("z") && csv.next())
+    {
+      const double z = csv.number("z");
+      if (z != first.value_or(z))
+        return true;
+      first = z;
+    }
+    return false;
+  }
+
+  template <int dim>
+  ProgramNodes<dim> read_program_nodes(const std::string &file)
+  {
+    if constexpr (dim == 2)
+    {
+      const meshfree::GivenNodes nodes = meshfree::read_given_nodes(file);
+      return {nodes.id, nodes.places, nodes.volume};
+    }
+    else
+    {
+      const meshfree::WeightsInSpace nodes = meshfree::read_nodes_in_space(file);
+      return {nodes.id, nodes.places, nodes.volumes};
+    }
+  }
+
+  template ProgramNodes<2> read_program_nodes<2>(const std::string &file);
+  template ProgramNodes<3> read_program_nodes<3>(const std::string &file);
 } // namespace plumbline::check

@@ -27,6 +27,12 @@ namespace plumbline::check
     std::vector<double> volumes;            ///< [length^dim]
   };
 
+  /// Whether a file of nodes has a column z that is not constant.
+  bool is_in_space(const std::string &file);
+
+  template <int dim>
+  ProgramNodes<dim> read_program_nodes(const std::string &file);
+
   /// What should_stop() of a program asked for.
   struct Interrupted : std::exception
   {

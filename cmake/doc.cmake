@@ -27,6 +27,6 @@ set(DOXYGEN_MACRO_EXPANSION YES)
 set(DOXYGEN_EXCLUDE_SYMBOLS "std" "std::*" "dealii" "dealii::*")
 set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md")
 set(DOXYGEN_QUIET YES)
-doxygen_add_docs(doc lib reference meshfree check app CONTRIBUTING.md cmake/folders.dox
+doxygen_add_docs(doc lib reference meshfree check driver app CONTRIBUTING.md cmake/folders.dox
                  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
                  COMMENT "Pages of the library in build/*/doc")

@@ -5,7 +5,7 @@ install(TARGETS plumbline plumbline_dealii ${modules} EXPORT plumblineTargets
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY reference meshfree check DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline
+install(DIRECTORY reference meshfree check driver DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/plumbline/scenes)
 # the page for man and completions are printed by the command that is installed

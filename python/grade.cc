@@ -1,8 +1,8 @@
 #include "study/grade.h"
-#include "app/certified_set.h"
 #include "arrays.h"
 #include "base/choice.h"
 #include "bindings.h"
+#include "io/certified_set.h"
 #include "io/certified_values.h"
 
 #include <algorithm>
@@ -112,7 +112,7 @@ namespace plumbline::python
     py::dict grade_arrays(const std::string &problem, const Doubles &points,
                           const std::vector<Doubles> &values, const std::vector<double> &h)
     {
-      const Certificate certificate = app::certificate_of(problem, prefix_of_package());
+      const Certificate certificate = io::certificate_of(problem, prefix_of_package());
       const auto numbers = numbers_of(points, certificate);
       std::vector<study::GivenValues> given;
       for (const Doubles &one : values)
@@ -123,7 +123,7 @@ namespace plumbline::python
     py::dict grade_files(const std::string &problem, const std::vector<std::string> &files,
                          const std::vector<double> &h)
     {
-      const Certificate certificate = app::certificate_of(problem, prefix_of_package());
+      const Certificate certificate = io::certificate_of(problem, prefix_of_package());
       std::vector<study::GivenValues> given;
       for (const std::string &file : files)
         given.push_back(io::read_values(file, certificate));
@@ -133,7 +133,7 @@ namespace plumbline::python
     /// Certified points and values of a problem.
     py::dict problem_of(const std::string &problem)
     {
-      const Certificate certificate = app::certificate_of(problem, prefix_of_package());
+      const Certificate certificate = io::certificate_of(problem, prefix_of_package());
       py::list points, values, bounds;
       for (const study::CertifiedValue &one : certificate.points)
       {
@@ -153,6 +153,6 @@ namespace plumbline::python
     module.def("grade_arrays", grade_arrays, "problem"_a, "points"_a, "values"_a, "h"_a);
     module.def("grade_files", grade_files, "problem"_a, "files"_a, "h"_a);
     module.def("certified_problem", problem_of, "problem"_a);
-    module.def("certified_names", [] { return app::certified_names(prefix_of_package()); });
+    module.def("certified_names", [] { return io::certified_names(prefix_of_package()); });
   }
 } // namespace plumbline::python

@@ -1,4 +1,4 @@
-#include "app/moduli.h"
+#include "check/moduli.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "io/results_json.h"
@@ -37,7 +37,7 @@ namespace plumbline::python
                        const std::vector<std::string> &ratios, double E, const std::string &state,
                        const std::string &kernel)
     {
-      app::ModuliOptions options;
+      check::ModuliOptions options;
       options.kernel = kernel;
       options.state = state;
       options.rules = names;
@@ -46,7 +46,7 @@ namespace plumbline::python
       for (const PythonRule &rule : rules)
         options.own_rules.push_back(rule.rule());
       const py::gil_scoped_release others;
-      return in_arguments([&] { return io::to_json(app::moduli_of_rules(options)); });
+      return in_arguments([&] { return io::to_json(check::moduli_of_rules(options)); });
     }
 
     /// Bonds of nodes in ascending order of the nodes, those of a node as they are given.
@@ -97,7 +97,7 @@ namespace plumbline::python
                            std::to_string(w.data()[k]) + " and the kernel point (" +
                            std::to_string(places[k][0]) + ", " + std::to_string(places[k][1]) +
                            "); give finite weights, and points other than 0");
-      const auto kind = in_arguments([&] { return app::elastic_state(state); });
+      const auto kind = in_arguments([&] { return check::elastic_state(state); });
       if (kind == physics::ElasticState::solid)
         throw InputError("state = '3D', but bonds are given in the plane; choose 'plane stress' or "
                          "'plane strain'");

@@ -1,7 +1,7 @@
 #include "rule.h"
 
-#include "app/methods.h"
 #include "bindings.h"
+#include "driver/methods.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/rules/families.h"
 #include "problem/needs.h"
@@ -160,7 +160,7 @@ namespace plumbline::python
     py::list all_methods_as_dicts()
     {
       py::list result;
-      for (const auto &method : app::all_methods())
+      for (const auto &method : driver::all_methods())
         result.append(py::dict("name"_a = method->name(), "family"_a = base::word(method->family()),
                                "help"_a = method->help(), "in_all"_a = method->is_in_all()));
       return result;
@@ -249,7 +249,7 @@ namespace plumbline::python
     if (!py::isinstance<py::str>(given))
       throw InputError("method = " + py::repr(given).cast<std::string>() +
                        " is no method; give a name (plumbline.methods()) or a plumbline.Rule");
-    return study::find_method(app::all_methods(), scene::method_name(given.cast<std::string>()),
+    return study::find_method(driver::all_methods(), scene::method_name(given.cast<std::string>()),
                               "method");
   }
 

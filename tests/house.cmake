@@ -1,5 +1,5 @@
 # Walk the includes: base <- {physics, geometry} <- {algebra, uq} <- problem <- {method, scene} <- analysis <- study <- io <- report;
-# reference and meshfree include lib and never each other, check includes meshfree and lib, and their folders some of their own alone; Trilinos is
+# reference and meshfree include lib and never each other, check includes meshfree and lib, driver and python all of these, and their folders some of their own alone, none of them app; Trilinos is
 # named in algebra and reference alone; CGAL in sources alone. Members of structs have values from the
 # start. Choices by words are enums and tables, not comparisons with literal strings. tests/functions.py limits the length of functions.
 cmake_minimum_required(VERSION 3.22)
@@ -18,6 +18,8 @@ set(may_include_report base physics geometry uq problem scene algebra method ana
 set(may_include_reference base physics geometry problem algebra method reference)
 set(may_include_meshfree base physics geometry problem algebra method meshfree)
 set(may_include_check base physics geometry uq problem scene algebra method analysis study io report meshfree check)
+set(may_include_driver base physics geometry uq problem scene algebra method analysis study io report reference meshfree check driver)
+set(may_include_python ${may_include_driver})
 # what a folder within one may include of the others there
 set(scene_sections models)
 set(scene_models)
@@ -31,11 +33,11 @@ set(reference_lattice)
 set(reference_strip)
 set(reference_mesh)
 set(reference_local mesh)
-set(ours base physics geometry uq problem scene algebra method analysis study io report reference meshfree check app tests)
+set(ours base physics geometry uq problem scene algebra method analysis study io report reference meshfree check driver app tests)
 
 set(n_includes 0)
-foreach(folder base physics geometry uq problem scene algebra method analysis study io report reference meshfree check)
-  if(folder MATCHES "^(reference|meshfree|check)$")
+foreach(folder base physics geometry uq problem scene algebra method analysis study io report reference meshfree check driver python)
+  if(folder MATCHES "^(reference|meshfree|check|driver|python)$")
     set(path ${ROOT}/${folder})
   else()
     set(path ${ROOT}/lib/${folder})
@@ -81,7 +83,7 @@ set(most_literals 10)
 
 set(n_files 0)
 set(literals)
-foreach(folder lib reference meshfree check app)
+foreach(folder lib reference meshfree check driver app)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cc)
   foreach(file ${files})
     math(EXPR n_files "${n_files} + 1")

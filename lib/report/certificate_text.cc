@@ -1,5 +1,6 @@
 #include "report/certificate_text.h"
 
+#include "base/choice.h"
 #include "base/number_text.h"
 #include "report/counted.h"
 
@@ -163,5 +164,111 @@ namespace plumbline::report
            way_text(certificate.meshfree, "confirms") + "\n\n" + shown(certificate) +
            "\ncertificate: " + file + "\n\n" + wrapped(answer_of(certificate), summary_columns, 2) +
            '\n';
+  }
+
+  namespace
+  {
+    /// Why values are refused.
+    std::string reason_of(const Certificate &certificate,
+                          const std::vector<const CertifiedValue *> &refused)
+    {
+      std::size_t n_without = 0, n_wrong = 0;
+      for (const CertifiedValue *one : refused)
+      {
+        n_without += one->has_bounds() ? 0 : 1;
+        n_wrong += one->error() > one->bound ? 1 : 0;
+      }
+      const std::string of =
+          " of " + counted(certificate.points.size() + (certificate.mean ? 1 : 0), "value");
+      if (n_without > 0)
+        return "there is no bound for " + std::to_string(n_without) + of +
+               ": changes from level to level do not decrease, or the error of outer "
+               "quadrature is not estimated; give finer levels (Study/h), another rule, or "
+               "Quadrature/tolerance > 0";
+      if (n_wrong > 0)
+        return "the known solution contradicts " + std::to_string(n_wrong) + of +
+               ": it is off by more than the bound; is Problem/solution that of the load?";
+      return certificate.galerkin.method + " and " + certificate.meshfree.method +
+             " disagree about " + std::to_string(refused.size()) + of +
+             ": they differ by more than both bounds; one of them is wrong, or its levels are "
+             "too coarse for its bound";
+    }
+
+    /// A certificate of no digits says nothing.
+    std::string without_digits(const Certificate &certificate)
+    {
+      const bool is_galerkin = certificate.least_digits() == 0;
+      if (!is_galerkin && certificate.confirmed_digits() > 0)
+        return "";
+      return "the bound of " + (is_galerkin ? certificate.galerkin : certificate.meshfree).method +
+             " leaves not one digit certain at some points, relative to the root mean square of "
+             "u, " +
+             text(certificate.size) + "; " +
+             (is_galerkin ? "give a finer mesh (--reference-level, Study/h) or a higher degree"
+                          : "give finer levels (Study/h) or another rule");
+    }
+  } // namespace
+
+  std::string certificate_refusal(const Certificate &certificate)
+  {
+    const auto refused = certificate.refused();
+    return refused.empty() ? without_digits(certificate) : reason_of(certificate, refused);
+  }
+
+  namespace
+  {
+    std::string of_grade(double value)
+    {
+      constexpr int n_digits = 3;
+      return std::isfinite(value) ? base::to_text(value, n_digits) : "–";
+    }
+
+    Table table_of(const study::SeriesGrade &found, bool has_sizes)
+    {
+      Table table{"", {"file"}, {}};
+      if (has_sizes)
+        table.columns.emplace_back("h");
+      for (const char *const head : {"largest error", "rms error", "digits"})
+        table.columns.emplace_back(head);
+      if (has_sizes)
+        table.columns.emplace_back("order");
+      for (const study::Grade &one : found.grades)
+      {
+        std::vector<Cell> row = {text_cell(one.name)};
+        if (has_sizes)
+          row.push_back(number_cell(one.h));
+        row.push_back(error_cell(one.largest));
+        row.push_back(error_cell(one.root_mean_square));
+        row.push_back(text_cell((one.is_at_least ? "at least " : "") + std::to_string(one.digits)));
+        if (has_sizes)
+          row.push_back(std::isfinite(one.order) ? rate_cell(one.order) : empty_cell());
+        table.rows.push_back(std::move(row));
+      }
+      return table;
+    }
+
+    std::string answer_of(const study::SeriesGrade &found, bool has_sizes)
+    {
+      const study::Grade &finest = found.finest();
+      std::string answer = std::string(finest.is_at_least ? "at least " : "") +
+                           std::to_string(finest.digits) + " digits" +
+                           (found.grades.size() > 1 ? " in " + finest.name : "");
+      if (has_sizes && found.grades.size() > 1)
+        answer += "; order " + of_grade(found.order.value) + "; " + base::word(found.limit) + ": " +
+                  found.reason;
+      return answer;
+    }
+  } // namespace
+
+  std::string grade_text(const study::Certificate &certificate, const study::SeriesGrade &found)
+  {
+    const bool has_sizes = found.finest().h > 0;
+    return heading(certificate.name, certificate.purpose) + '\n' +
+           std::to_string(certificate.points.size()) + " points, certified to at least " +
+           std::to_string(certificate.least_digits()) + " digits; errors are relative to " +
+           of_grade(certificate.size) + "\n\n" + to_text(table_of(found, has_sizes)) +
+           "\nMeshfree rules of Plumbline at the same points:\n" +
+           to_text(rules_table(certificate)) + '\n' +
+           wrapped(answer_of(found, has_sizes), summary_columns, 2) + '\n';
   }
 } // namespace plumbline::report

@@ -7,6 +7,7 @@
 #include "study/grade.h"
 #include "study/grid_convergence.h"
 #include "study/nodal_fit.h"
+#include "study/preflight.h"
 #include "study/reference_estimate.h"
 
 #include <algorithm>
@@ -437,5 +438,50 @@ namespace plumbline::study
       refuse("Study/h has " + std::to_string(n) +
              " mesh sizes; the bound of the meshfree rule "
              "needs three at least");
+  }
+
+  namespace
+  {
+    /// The meshfree rules that the scene names, of which the first one confirms.
+    Methods rules_of(const scene::Scene &scene, const Methods &methods)
+    {
+      Methods rules;
+      for (const auto &one : choose_methods(scene, methods))
+        if (one->family() == method::MethodFamily::meshfree)
+          rules.push_back(one);
+      if (!rules.empty())
+        return rules;
+      throw InputError("scene '" + scene.name +
+                       "': Methods/names has no meshfree rule, by which values are confirmed; add "
+                       "one, e.g. IPA-AC-R2");
+    }
+
+    /// The reference, which can do the scene.
+    std::shared_ptr<const Method> reference_of(const scene::Scene &scene, const Methods &methods)
+    {
+      const auto method = find_method(methods, *scene.reference.method, "Reference/method");
+      if (method->family() != method::MethodFamily::reference)
+        throw InputError("scene '" + scene.name + "': Reference/method = " + method->name() +
+                         " is a meshfree rule; name a Galerkin method, e.g. Q2 or P2");
+      return method;
+    }
+  } // namespace
+
+  CertifiedWays certified_ways(const scene::Scene &scene, const Methods &available,
+                               unsigned int reference_level)
+  {
+    CertifiedWays ways{reference_of(scene, available), rules_of(scene, available)};
+    const auto n_levels = static_cast<unsigned int>(scene.study.series.front().levels.size());
+    const unsigned int level = reference_level == 0 ? n_levels : reference_level;
+    if (level > n_levels)
+      throw InputError("--reference-level = " + std::to_string(level) + ", but Study/h has " +
+                       std::to_string(n_levels) + " mesh sizes");
+    check_memory(scene, {ways.galerkin}, available, level);
+    scene::Scene of_rule = scene; // that has no reference at its finer levels
+    of_rule.reference.method.reset();
+    of_rule.reference.estimate = scene::Estimate::none;
+    check_memory(of_rule, ways.rules, available, 0);
+    ways.level = level - 1;
+    return ways;
   }
 } // namespace plumbline::study

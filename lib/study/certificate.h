@@ -106,4 +106,17 @@ namespace plumbline::study
   /// @throws InputError  no static problem in one case; not Study/regime = m with at
   /// least three levels; Reference/method or Reference/estimate missing; cracks
   void check_certifiable(const scene::Scene &scene);
+
+  /// The two ways by which a scene's values are certified, see certify().
+  struct CertifiedWays
+  {
+    std::shared_ptr<const method::Method> galerkin; ///< Reference/method
+    method::Methods rules;                          ///< those of Methods/names
+    std::size_t level = 0;                          ///< of the Galerkin method, from 0
+  };
+
+  /// @param reference_level  from 1, the coarsest; 0: the finest
+  /// @throws InputError  no such methods or level, or no memory for the two ways
+  CertifiedWays certified_ways(const scene::Scene &scene, const method::Methods &available,
+                               unsigned int reference_level);
 } // namespace plumbline::study

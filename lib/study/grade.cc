@@ -2,12 +2,42 @@
 
 #include "base/choice.h"
 #include "base/error.h"
+#include "base/number_list.h"
 #include "base/number_text.h"
 #include "study/grid_convergence.h"
 #include "study/reference_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    enum class Requirement
+    {
+      digits,
+      order,
+      limit
+    };
+
+    /// What can be required of a limit.
+    enum class RequiredLimit
+    {
+      certified
+    };
+  } // namespace
+} // namespace plumbline::study
+
+namespace plumbline::base
+{
+  template <>
+  inline constexpr auto words<study::Requirement> = std::array{"digits", "order", "limit"};
+  template <>
+  inline constexpr auto words<study::RequiredLimit> = std::array{"certified"};
+} // namespace plumbline::base
 
 namespace plumbline::study
 {
@@ -232,5 +262,74 @@ namespace plumbline::study
     else
       find_limit(certificate, given, h, series);
     return series;
+  }
+
+  namespace
+  {
+    /// One requirement, as on the command line.
+    void add_required(const std::string &part, GradeRequirements &required)
+    {
+      const auto equals = part.find('=');
+      const auto kind = base::from_word<Requirement>(part.substr(0, equals));
+      const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+      const auto refuse = [&]
+      {
+        throw InputError("--require '" + part +
+                         "' is not known; write digits=N (0 to 15), order=P or limit=certified, "
+                         "separated by commas");
+      };
+      if (!kind || value.empty())
+        refuse();
+      if (*kind == Requirement::limit)
+      {
+        if (!base::from_word<RequiredLimit>(value))
+          refuse();
+        required.is_limit_certified = true;
+        return;
+      }
+      const std::vector<double> numbers =
+          base::to_numbers("--require " + base::word(*kind), {value});
+      if (numbers.size() != 1)
+        refuse();
+      if (*kind == Requirement::order)
+      {
+        required.order = numbers[0];
+        return;
+      }
+      constexpr double most_digits = 15;
+      if (numbers[0] != std::floor(numbers[0]) || !(numbers[0] >= 0 && numbers[0] <= most_digits))
+        refuse();
+      required.digits = static_cast<unsigned int>(numbers[0]);
+    }
+  } // namespace
+
+  GradeRequirements parse_grade_requirements(const std::vector<std::string> &words)
+  {
+    GradeRequirements required;
+    for (const std::string &list : words)
+    {
+      std::istringstream parts(list);
+      for (std::string part; std::getline(parts, part, ',');)
+        add_required(part, required);
+    }
+    return required;
+  }
+
+  std::vector<std::string> complaints(const GradeRequirements &required, const SeriesGrade &found)
+  {
+    std::vector<std::string> result;
+    if (found.finest().digits < required.digits)
+      result.push_back("required digits = " + std::to_string(required.digits) + ": " +
+                       found.finest().name + " has " + std::to_string(found.finest().digits));
+    if (std::isfinite(required.order) && !(found.order.value >= required.order))
+      result.push_back("required order = " + text(required.order) + ": it is " +
+                       (std::isfinite(found.order.value)
+                            ? text(found.order.value)
+                            : "not known; give two files and --h, with errors above the bounds "
+                              "of the certificate"));
+    if (required.is_limit_certified && found.limit != GradedLimit::certified)
+      result.push_back("required limit = certified: " + base::word(found.limit) + ": " +
+                       found.reason);
+    return result;
   }
 } // namespace plumbline::study

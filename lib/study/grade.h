@@ -81,6 +81,21 @@ namespace plumbline::study
   /// @throws InputError  another number of values than the certificate has
   SeriesGrade grade(const Certificate &certificate, const std::vector<GivenValues> &given,
                     const std::vector<double> &h);
+
+  /// What is required of the finest grid.
+  struct GradeRequirements
+  {
+    unsigned int digits = 0;
+    double order = -std::numeric_limits<double>::infinity();
+    bool is_limit_certified = false;
+  };
+
+  /// @param words  of the command line, each a list: digits=N, order=P, limit=certified
+  /// @throws InputError  another word
+  GradeRequirements parse_grade_requirements(const std::vector<std::string> &words);
+
+  /// Requirements that do not hold.
+  std::vector<std::string> complaints(const GradeRequirements &required, const SeriesGrade &found);
 } // namespace plumbline::study
 
 namespace plumbline::base

@@ -123,7 +123,7 @@ def run(scene, *, set=None, methods=None, levels=0):
     scalars and cost, trends with verdicts and rates, advice, expectations.
     """
     text, changed, rules = _given(scene, set, methods)
-    return _study(_core.run_json(text, changed, rules, levels))
+    return _study(_core.study_json("run", text, changed, rules, levels))
 
 
 def stability(scene, *, set=None, methods=None, levels=0):
@@ -131,7 +131,7 @@ def stability(scene, *, set=None, methods=None, levels=0):
     `plumbline stability` does. Arguments as of run(). Returns a Study whose records are Records.
     """
     text, changed, rules = _given(scene, set, methods)
-    return _study(_core.stability_json(text, changed, rules, levels))
+    return _study(_core.study_json("stability", text, changed, rules, levels))
 
 
 def dispersion(scene, *, angles=(), directions=(), set=None, methods=None, levels=0):
@@ -145,8 +145,8 @@ def dispersion(scene, *, angles=(), directions=(), set=None, methods=None, level
     Other arguments as of run(). Returns a Study; curves of its records are columns over k.
     """
     text, changed, rules = _given(scene, set, methods)
-    return _study(_core.dispersion_json(text, changed, rules, levels, list(angles),
-                                        list(directions)))
+    return _study(_core.study_json("dispersion", text, changed, rules, levels,
+                                   angles=list(angles), directions=list(directions)))
 
 
 def _resumable(analyse, folder):
@@ -176,7 +176,7 @@ def grow(scene, *, set=None, methods=None, folder=None):
     "events", "broken" and "sides" (columns), and the field "damage" of each of the "moments".
     """
     text, changed, _ = _named(scene, set, methods)
-    return _resumable(lambda own: _core.grow_json(text, changed, own), folder)
+    return _resumable(lambda own: _core.study_json("grow", text, changed, [], 0, own), folder)
 
 
 def crack(scene, *, set=None, methods=None, levels=0, folder=None):
@@ -187,7 +187,7 @@ def crack(scene, *, set=None, methods=None, levels=0, folder=None):
     whether the crack runs, branches or is arrested, curve "samples" has its tip over time.
     """
     text, changed, _ = _named(scene, set, methods)
-    return _resumable(lambda own: _core.crack_json(text, changed, levels, own), folder)
+    return _resumable(lambda own: _core.study_json("crack", text, changed, [], levels, own), folder)
 
 
 def strip(scene, *, set=None, methods=None, levels=0):
@@ -196,4 +196,4 @@ def strip(scene, *, set=None, methods=None, levels=0):
     its tip by level, limits and their agreement.
     """
     text, changed, _ = _named(scene, set, methods)
-    return _study(_core.strip_json(text, changed, levels))
+    return _study(_core.study_json("strip", text, changed, [], levels))

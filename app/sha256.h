@@ -1,9 +1,0 @@
-#pragma once
-
-#include <string>
-
-namespace plumbline::app
-{
-  /// SHA-256 of a text, 64 hexadecimal digits in lower case (FIPS 180-4), by OpenSSL.
-  std::string sha256(const std::string &text);
-} // namespace plumbline::app

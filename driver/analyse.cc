@@ -1,0 +1,235 @@
+#include "driver/analyse.h"
+
+#include "base/communicator.h"
+#include "base/error.h"
+#include "base/first_rank.h"
+#include "base/progress_line.h"
+#include "driver/interrupts.h"
+#include "driver/methods.h"
+#include "driver/provenance.h"
+#include "io/output_folder.h"
+#include "io/point_vtu.h"
+#include "io/record_journal.h"
+#include "io/results_json.h"
+#include "report/formats.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+namespace plumbline::driver
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// All that records depend on.
+    std::string subject_of(const study::Analysis &analysis, const AnalyseOptions &options,
+                           const scene::Scene &scene)
+    {
+      return "# levels: " + std::to_string(options.n_levels) + ", " + analysis.name + ": " +
+             analysis.options + "\n" + scene.text;
+    }
+
+    /// The fields of a series' finest level, each to a file.
+    void write_fields(const study::Records &records, const scene::Scene &scene,
+                      unsigned int n_levels, const fs::path &folder)
+    {
+      for (const study::Record &record : records)
+      {
+        const auto &all = scene.study.series;
+        const auto series =
+            std::find_if(all.begin(), all.end(),
+                         [&](const problem::Series &one) { return one.name == record.key.series; });
+        const std::size_t n = series->levels.size(),
+                          last = n_levels == 0 ? n : std::min<std::size_t>(n_levels, n);
+        unsigned int k = 0;
+        for (const auto &[name, field] : record.fields)
+          if (record.key.level + 1 == last)
+            io::write_vtu(field, folder / (report::slug(record.key.label()) + "_" +
+                                           report::slug(record.key.series) +
+                                           (++k > 1 ? "_" + std::to_string(k) : "") + ".vtu"));
+      }
+    }
+
+    /// So that no work is lost at the end.
+    void require_writable(const fs::path &file)
+    {
+      const bool is_there = fs::exists(file);
+      if (!std::ofstream(file, std::ios::app))
+        report::write_file(file, ""); // tells why not
+      if (!is_there)
+        fs::remove(file);
+    }
+
+    /// A failure that the scene expects ("method: failed") is no error of the command.
+    bool is_expected_failure(const study::StudyResults &results, const study::Record &record)
+    {
+      const study::Key &key = record.key;
+      const std::string subject = key.method + ", " + key.problem + ", " + key.series + ": verdict";
+      return std::any_of(results.expectations.begin(), results.expectations.end(),
+                         [&](const study::Expectation &e) {
+                           return e.subject == subject &&
+                                  e.expected == base::word(study::Outcome::failed) && e.holds;
+                         });
+    }
+
+    /// What went wrong, on standard error.
+    void tell_failures(const study::StudyResults &results)
+    {
+      for (const study::Record &record : results.records)
+        if (const study::Key &key = record.key; !record.failure.empty())
+          std::cerr << "no result: " << key.label()
+                    << (key.problem.empty() ? "" : ", " + key.problem) << ", " << key.series
+                    << ", h = " << key.h << ": " << record.failure << '\n';
+    }
+
+    int exit_code(const Task &task, bool check, const study::StudyResults &results)
+    {
+      if (!results.is_complete)
+        return 130;
+      for (const study::Record &record : results.records)
+        if (!task.analysis.are_failures_findings && !record.failure.empty() &&
+            !is_expected_failure(results, record))
+          return 3;
+      const bool holds = std::all_of(results.expectations.begin(), results.expectations.end(),
+                                     [](const study::Expectation &e) { return e.holds; });
+      return check && !holds ? 1 : 0;
+    }
+
+    /// What an interrupted command has left. All ranks have read it before the first one writes,
+    /// and go on from the same.
+    study::StudyResults earlier_results(const Task &task, io::RecordJournal &journal)
+    {
+      const auto n_found = static_cast<double>(journal.earlier().records.size());
+      if (!task.goes_on || task.ranks.largest(n_found) != -task.ranks.largest(-n_found))
+        journal.forget();
+      study::StudyResults earlier = journal.earlier();
+      earlier.provenance = provenance();
+      earlier.provenance.insert(task.provenance.begin(), task.provenance.end());
+      return earlier;
+    }
+
+    void tell_warnings(const study::StudyResults &results)
+    {
+      for (const std::string &warning : results.warnings)
+        std::cerr << "warning: " << warning << '\n';
+    }
+
+    void write_pages(const Task &task, const study::StudyResults &results, const fs::path &folder)
+    {
+      if (task.write)
+        return task.write(results, folder);
+      tell_warnings(results);
+      report::write_study(task.view(results), results, folder);
+    }
+
+    /// What is wanted on standard output; what went wrong on standard error.
+    void tell_end(const Task &task, const AnalyseOptions &options,
+                  const study::StudyResults &results, const fs::path &folder)
+    {
+      if (options.json)
+        std::cout << io::to_json(results);
+      else if (!options.quiet && task.summary)
+      {
+        std::cout << task.summary(results, folder);
+        tell_warnings(results);
+      }
+      else if (!options.quiet)
+        std::cout << report::study_summary(task.view(results), results,
+                                           (folder / (task.analysis.name + ".html")).string());
+      if (!results.is_complete)
+        say_interrupted(folder, task.goes_on);
+      if (!task.analysis.are_failures_findings)
+        tell_failures(results);
+      for (const study::Expectation &one : results.expectations)
+        if (results.is_complete && options.check && !one.holds)
+          std::cerr << "not as expected: " << one.subject << ": found " << one.found << '\n';
+    }
+  } // namespace
+
+  method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
+                                const method::Methods &available, unsigned int n_levels)
+  {
+    method::Methods methods = analysis.choose_methods(scene, available, n_levels, 1);
+    if (analysis.check)
+      analysis.check(scene, methods, n_levels);
+    return methods;
+  }
+
+  int analyse(const MakeTask &make_task, const AnalyseOptions &options, const scene::Scene &scene)
+  {
+    if (!(options.budget >= 0))
+      throw InputError(
+          "--budget is negative; give CPU seconds of one method at one level, or leave "
+          "it out");
+    const bool is_talking = !options.quiet && base::Communicator::all().rank() == 0;
+    std::optional<base::ProgressLine> progress(is_talking);
+    const fs::path folder = output_folder(options, scene);
+    const study::Checkpoints checkpoints{folder, is_interrupted};
+    const Task task = make_task(checkpoints);
+    const study::Analysis &analysis = task.analysis;
+    const method::Methods methods = check_methods(analysis, scene, all_methods(), options.n_levels);
+    progress.reset();
+    watch_interrupts();
+    const io::OutputFolder output(folder, {task.command, scene.name, scene.text}, task.ranks);
+    const fs::path journal_file = folder / (task.file + ".jsonl");
+    base::on_first_rank(task.ranks, [&] { require_writable(folder / (task.file + ".json")); });
+    io::RecordJournal journal(journal_file, subject_of(analysis, options, scene));
+
+    study::RunControl control;
+    control.n_levels = options.n_levels;
+    control.budget = options.budget;
+    control.ranks = task.ranks;
+    control.should_stop = [&] { return task.ranks.any(is_interrupted()); };
+    control.earlier = earlier_results(task, journal);
+    if (!task.note.empty() && task.ranks.rank() == 0)
+      std::cerr << "note: " << task.note << '\n';
+    if (!control.earlier.records.empty() && is_talking)
+      std::cerr << "continuing: " << control.earlier.records.size() << " records are in '"
+                << journal_file.string() << "' already\n";
+    const auto write_all_fields = [&](const study::Records &records)
+    { write_fields(records, scene, options.n_levels, folder / analysis.name); };
+    control.on_made = [&](const study::StudyResults &made)
+    {
+      base::on_first_rank(task.ranks,
+                          [&]
+                          {
+                            journal.append(made);
+                            std::error_code code;
+                            if (task.has_checkpoint && !made.records.empty())
+                              fs::remove(checkpoints.file(), code);
+                            write_all_fields(made.records);
+                          });
+    };
+    progress.emplace(is_talking);
+    control.on_progress = [&](const std::string &what, double fraction)
+    { progress->show(what, fraction); };
+    base::on_first_rank(task.ranks, [&] { write_all_fields(control.earlier.records); });
+    const study::StudyResults results = run_study(analysis, scene, methods, control);
+    progress.reset();
+    base::on_first_rank(task.ranks,
+                        [&]
+                        {
+                          write_pages(task, results, folder);
+                          if (results.is_complete)
+                            journal.remove();
+                        });
+    if (task.ranks.rank() == 0)
+      tell_end(task, options, results, folder);
+    return exit_code(task, options.check, results);
+  }
+
+  int analyse(const AnalysisRow &row, const AnalyseOptions &options)
+  {
+    end_at_interrupts();
+    const auto make_task = [&](const study::Checkpoints &checkpoints)
+    {
+      Task task{row.make({checkpoints, options.directions, true}), row.view};
+      task.has_checkpoint = row.has_checkpoint;
+      return task;
+    };
+    return analyse(make_task, options, without_reference(read_scene(options)));
+  }
+} // namespace plumbline::driver

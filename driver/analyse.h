@@ -1,0 +1,57 @@
+#pragma once
+
+#include "base/communicator.h"
+#include "driver/analyses.h"
+#include "driver/scene_input.h"
+
+#include <map>
+
+namespace plumbline::driver
+{
+  struct AnalyseOptions : SceneOptions
+  {
+    double budget = 0; ///< of one method at one level [CPU s]; 0: any
+    bool check = false;
+    study::AskedDirections directions; ///< see Asked
+  };
+
+  /// An analysis of a scene, and what becomes of its results.
+  struct Task
+  {
+    study::Analysis analysis;
+    report::View (*view)(const study::StudyResults &) = report::default_view;
+    std::string command = analysis.name; ///< whose files they are
+    /// Pages and files of results, and what is printed of them; empty: as the view.
+    std::function<void(const study::StudyResults &, const std::filesystem::path &folder)> write =
+        {};
+    std::function<std::string(const study::StudyResults &, const std::filesystem::path &folder)>
+        summary = {};
+    std::string file = analysis.name; ///< the stem of its journal and numbers
+    bool goes_on = true;              ///< from what an interrupted command has left
+    bool has_checkpoint = false;      ///< see study::Checkpoints
+    base::Communicator ranks = base::Communicator::alone(); ///< that share the work
+    std::map<std::string, std::string> provenance = {};     ///< besides versions and machine
+    std::string note = {};                                  ///< for people, before it begins
+  };
+
+  /// A task that keeps its checkpoints, and other files of its own, where it is told.
+  using MakeTask = std::function<Task(const study::Checkpoints &)>;
+
+  /// The methods that a scene asks an analysis for; all that can be refused before its first
+  /// record is.
+  method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
+                                const method::Methods &available, unsigned int n_levels);
+
+  /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
+  /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
+  /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
+  /// and checkpoint.h5. On several ranks the first one of the task talks and writes.
+  /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
+  ///         where that is no finding, nor expected by the scene; 130 if it was interrupted
+  /// @throws InputError  a scene that cannot be used, a folder that cannot be written
+  /// @throws NumericalError  pictures cannot be drawn; all else is written before that
+  int analyse(const MakeTask &make_task, const AnalyseOptions &options, const scene::Scene &scene);
+
+  /// The same of a row of the table, by the scene without its reference.
+  int analyse(const AnalysisRow &row, const AnalyseOptions &options);
+} // namespace plumbline::driver

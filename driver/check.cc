@@ -1,0 +1,162 @@
+#include "driver/check.h"
+
+#include "base/communicator.h"
+#include "base/error.h"
+#include "base/progress_line.h"
+#include "base/text_file.h"
+#include "check/body.h"
+#include "check/files.h"
+#include "check/in_space.h"
+#include "check/series.h"
+#include "check/text.h"
+#include "driver/interrupts.h"
+#include "driver/provenance.h"
+#include "driver/scene_input.h"
+#include "io/output_folder.h"
+#include "reference/method.h"
+#include "scene/scene_keys.h"
+
+#include <array>
+#include <functional>
+#include <iostream>
+
+namespace plumbline::driver
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// Scenes of bodies with cracks or free surfaces are refused before anything else of them is
+    /// looked at: here these are options.
+    void refuse_other_bodies(const CheckOptions &options)
+    {
+      const auto value_of = [&](const std::string &key)
+      { return scene::value_of_key(options.scene_file, options.overrides, key); };
+      for (const auto &[key, name, remedy] :
+           {std::array{"Domain/cracks", "cracks of scenes", "--crack 'x0, y0 : x1, y1'"},
+            std::array{"Domain/outside", "free surfaces by an expression",
+                       "the body as Domain/boxes or Domain/mesh, and --boundary free"}})
+        if (!value_of(key).empty())
+          throw InputError("'plumbline check' does not support " + std::string(name) + ": " + key +
+                           " is given; clear it, and give " + remedy);
+      if (value_of("Domain/boundary") == "free")
+        throw InputError("'plumbline check' does not support free bodies of scenes: "
+                         "Domain/boundary = free; write constrained, and give --boundary free");
+    }
+
+    /// Free surfaces and cracks are known in the plane, at one level.
+    void check_body_options(const CheckOptions &options, bool is_in_space)
+    {
+      const bool is_free = check::is_free_boundary(options.boundary, "--boundary");
+      if (!is_free && options.cracks.empty())
+        return;
+      const std::string given = is_free ? "--boundary free" : "--crack";
+      if (is_in_space)
+        throw InputError(given + " is for two dimensions; leave it out where Domain/dimension = 3");
+      if (check::is_series(options))
+        throw InputError(given + " is for the files of one level; give names without {h}");
+    }
+    /// Print what is wanted on standard output, and write files where they are.
+    void show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
+              const std::function<std::string()> &json, const std::function<std::string()> &text,
+              const std::function<void()> &write)
+    {
+      const bool is_silent = options.quiet || options.json;
+      if (options.json)
+        std::cout << json();
+      else if (!options.quiet)
+        std::cout << text();
+      const bool has_files = !scene.domain.is_in_space() && !is_silent;
+      if (!has_files && options.output.empty())
+        return;
+      const io::OutputFolder output(folder, {"check", scene.name, scene.text},
+                                    base::Communicator::alone());
+      write();
+    }
+
+    int show_series(const scene::Scene &scene, const CheckOptions &options,
+                    const check::Requirements &required, const fs::path &folder)
+    {
+      const bool is_first = base::Communicator::all().rank() == 0;
+      const check::LevelFiles files = check::find_level_files(scene, options);
+      if (!files.missing.empty() && is_first)
+        std::cerr << "warning: levels without files are left out: there is no " << files.missing
+                  << '\n';
+      check::Series found;
+      {
+        base::ProgressLine progress(!options.quiet && is_first);
+        found = check::find_series(files, reference::methods(),
+                                   [&](const std::string &what, double fraction)
+                                   { progress.show(what, fraction); });
+      }
+      found.results.provenance = provenance();
+      if (is_first)
+        show(
+            scene, options, folder, [&] { return check::to_json(found, files, required); },
+            [&] { return check::text(found, required, (folder / "report.html").string()); },
+            [&] { check::write_series(found, files, required, folder); });
+      return check::complaints(found, required).empty() ? 0 : 1;
+    }
+
+    int show_in_space(const scene::Scene &scene, const CheckOptions &options,
+                      const check::Requirements &required)
+    {
+      const check::InSpace found = check::find_in_space(scene, options, required);
+      const std::string json = check::to_json(found, scene);
+      if (base::Communicator::all().rank() == 0)
+        show(
+            scene, options, options.output, [&] { return json; },
+            [&] { return check::text(found); },
+            [&] { base::write_file(fs::path(options.output) / "check.json", json); });
+      return found.complaints.empty() ? 0 : 1;
+    }
+
+    int show_level(const scene::Scene &scene, const CheckOptions &options,
+                   const check::Requirements &required, const fs::path &folder)
+    {
+      const check::Findings found = check::find(scene, options, reference::methods());
+      const bool is_wrong = !check::complaints(found, required).empty();
+      if (!is_wrong)
+        for (const check::CaseCheck &one : found.cases)
+          if (!one.weights.failure.empty())
+            throw NumericalError("no solution of " + one.name() + ": " + one.weights.failure);
+      const int exit_code = is_wrong ? 1 : 0;
+      if (base::Communicator::all().rank() == 0)
+        show(
+            scene, options, folder,
+            [&] { return check::check_json(found, required, options, exit_code); },
+            [&] {
+              return check::check_text(found, required, options, (folder / "report.html").string());
+            },
+            [&] { check::write_check(found, required, options, exit_code, folder); });
+      return exit_code;
+    }
+  } // namespace
+
+  int check(const CheckOptions &options)
+  {
+    end_at_interrupts();
+    const check::Requirements required = check::parse_requirements(options.required);
+    refuse_other_bodies(options);
+    SceneOptions input;
+    input.scene_file = options.scene_file;
+    input.overrides = options.overrides;
+    const scene::Scene scene = read_scene(input);
+    if (scene.study.regime == scene::Regime::variable)
+      throw InputError("Study/regime = variable: weights are those of one value of " +
+                       scene.study.variable +
+                       "; give it as Random/values, with another regime (and no Study/variable)");
+    check_body_options(options, scene.domain.is_in_space());
+    const bool has_series = check::is_series(options);
+    if (has_series && scene.domain.is_in_space())
+      throw InputError("series of files are checked in the plane alone; give the files of one "
+                       "level");
+    const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
+                                                   : fs::path(options.output);
+    if (has_series)
+      return show_series(scene, options, required, folder);
+    if (scene.domain.is_in_space())
+      return show_in_space(scene, options, required);
+    return show_level(scene, options, required, folder);
+  }
+} // namespace plumbline::driver

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "driver/analyse.h"
+
+namespace plumbline::driver
+{
+  struct RunOptions : AnalyseOptions
+  {
+    std::string model;        ///< smallest or full, instead of the scene's
+    bool is_estimate = false; ///< print the memory it would take, and run nothing
+  };
+
+  /// Run a scene, write its report, print the verdicts.
+  /// With is_estimate nothing is run; the memory that it is expected to take is printed.
+  /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (a method fails that the
+  ///         scene does not expect to, or charts could not be drawn), 130 (interrupted; what is
+  ///         finished is written)
+  int run(const RunOptions &options);
+
+  /// Rebuild tables, charts and page of a folder from its results.
+  int rebuild_report(const std::string &folder);
+} // namespace plumbline::driver

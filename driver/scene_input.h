@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumbline::driver
+{
+  /// What commands that read a scene have in common.
+  struct SceneOptions
+  {
+    std::string scene_file, output; ///< output empty: results/NAME of the scene
+    std::vector<scene::Override> overrides;
+    std::string methods; ///< comma separated, instead of the scene's; empty: those
+    unsigned int n_levels = 0;
+    bool quiet = false, json = false;
+  };
+
+  /// The scene with its overrides, and names of methods as the methods write them.
+  scene::Scene read_scene(const SceneOptions &options);
+
+  /// Nothing is held against a reference, nor is its error estimated.
+  scene::Scene without_reference(scene::Scene scene);
+
+  /// The folder for results.
+  std::filesystem::path output_folder(const SceneOptions &options, const scene::Scene &scene);
+} // namespace plumbline::driver
