@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 #include "study/refusal.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iomanip>
@@ -73,10 +74,13 @@ namespace plumbline::app
 
     void list_methods()
     {
+      std::size_t width = 0;
       for (const auto &method : driver::all_methods())
-        std::cout << std::left << std::setw(16) << method->name() << std::setw(11)
-                  << base::word(method->family()) << method->help() << also_known_as(method->name())
-                  << '\n';
+        width = std::max(width, method->name().size() + 1);
+      for (const auto &method : driver::all_methods())
+        std::cout << std::left << std::setw(static_cast<int>(width)) << method->name()
+                  << std::setw(11) << base::word(method->family()) << method->help()
+                  << also_known_as(method->name()) << '\n';
     }
 
     void list_kernels()

@@ -3,6 +3,7 @@
 #include "meshfree/body/operator.h"
 #include "meshfree/rules/rules.h"
 #include "meshfree/scattered/operator.h"
+#include "meshfree/surface/corrections.h"
 #include "method/box_discretisation.h"
 #include "method/method.h"
 
@@ -44,10 +45,16 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
                                                              const problem::Problem<2> &problem);
 
+  /// On a body of bonds with a free boundary, see NetworkOperator.
+  /// @pre no dilatation
+  /// @throws InputError, NumericalError  as make_body_network
+  std::unique_ptr<method::Discretisation> discretise_by_bonds(const Rule &rule,
+                                                              const SurfaceCorrection &correction,
+                                                              const problem::Problem<2> &problem);
+
   /// Of one of these, see method::Method::expected_bytes.
   double expected_bytes(const method::ProblemSize &size);
 
   /// A body's operator at its free nodes.
-  method::DiscreteOperator
-  make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix);
+  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const BodyOperator> matrix);
 } // namespace plumbline::meshfree

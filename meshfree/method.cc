@@ -1,6 +1,7 @@
 #include "meshfree/method.h"
 
 #include "base/error.h"
+#include "meshfree/body/corrected_rule.h"
 #include "meshfree/discretisations.h"
 #include "meshfree/fracture/breaking_network.h"
 #include "meshfree/fracture/standing_crack.h"
@@ -228,6 +229,8 @@ namespace plumbline::meshfree
       methods.push_back(make_method(rule));
     for (const Rule &rule : rules_on_request())
       methods.push_back(std::make_shared<RuleMethod>(rule, false));
+    const method::Methods corrected = corrected_rules();
+    methods.insert(methods.end(), corrected.begin(), corrected.end());
     return methods;
   }
 } // namespace plumbline::meshfree

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "meshfree/body/network.h"
 #include "meshfree/discretisations.h"
 #include "meshfree/rules/family_statistics.h"
 #include "meshfree/scattered/field.h"
@@ -20,11 +21,15 @@ namespace plumbline::meshfree
                             [lame](const Point<2> &x) { return 8 * lame(x).mu; }});
     }
 
-    VariationalOperator make_operator(const VariationalBody &body, const Bonds<2> &bonds,
-                                      const problem::Problem<2> &problem)
+    Bonds<2> bonds_of(const Rule &rule, const problem::Problem<2> &problem)
     {
-      return {body, physics::influence_function<2>(problem.kernel.profile(), problem.horizon()),
-              bonds, problem.settings.solver.operator_backend};
+      return lattice_bonds(rule.in_plane(problem.kernel), problem.kernel, problem.body()->h,
+                           problem.settings.geometry.backend);
+    }
+
+    Kernel<2> influence_of(const problem::Problem<2> &problem)
+    {
+      return physics::influence_function<2>(problem.kernel.profile(), problem.horizon());
     }
 
     /// ∫ b over the free cells: on each quarter by a rule of degree 5, so that loads may jump at
@@ -68,8 +73,7 @@ namespace plumbline::meshfree
     class BodySystem : public algebra::LinearSystem
     {
     public:
-      explicit BodySystem(std::shared_ptr<const VariationalOperator> matrix)
-          : matrix_(std::move(matrix))
+      explicit BodySystem(std::shared_ptr<const BodyOperator> matrix) : matrix_(std::move(matrix))
       {
       }
       void vmult(algebra::Vector &y, const algebra::Vector &x) const override
@@ -79,23 +83,22 @@ namespace plumbline::meshfree
       algebra::LinearSolve solve(algebra::Vector &x, const algebra::Vector &b,
                                  const algebra::Stopping &stopping) const override
       {
-        const auto solved =
-            meshfree::solve(*matrix_, x, b, stopping.tolerance, stopping.max_iterations);
+        const auto solved = matrix_->solve(x, b, stopping.tolerance, stopping.max_iterations);
         return {solved.n_iterations, solved.relative_residual, matrix_->backend(),
                 matrix_->n_bonds()};
       }
 
     private:
-      std::shared_ptr<const VariationalOperator> matrix_;
+      std::shared_ptr<const BodyOperator> matrix_;
     };
 
     class RuleOnBody : public method::Discretisation
     {
     public:
-      RuleOnBody(const problem::Problem<2> &problem, const Bonds<2> &bonds)
+      RuleOnBody(const problem::Problem<2> &problem, const Bonds<2> &bonds,
+                 std::shared_ptr<const BodyOperator> matrix)
           : cells_(problem.cells()), loads_are_averages_(problem.settings.loads_are_averages),
-            matrix_(std::make_shared<const VariationalOperator>(
-                make_operator(make_body(problem), bonds, problem)))
+            matrix_(std::move(matrix))
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
@@ -178,7 +181,7 @@ namespace plumbline::meshfree
 
       std::shared_ptr<const geometry::NodeCells<2>> cells_;
       bool loads_are_averages_;
-      std::shared_ptr<const VariationalOperator> matrix_;
+      std::shared_ptr<const BodyOperator> matrix_;
       method::Diagnostics diagnostics_;
     };
   } // namespace
@@ -186,12 +189,25 @@ namespace plumbline::meshfree
   std::unique_ptr<method::Discretisation> discretise_on_body(const Rule &rule,
                                                              const problem::Problem<2> &problem)
   {
-    const Bonds<2> bonds = lattice_bonds(rule.in_plane(problem.kernel), problem.kernel,
-                                         problem.body()->h, problem.settings.geometry.backend);
-    return std::make_unique<RuleOnBody>(problem, bonds);
+    const Bonds<2> bonds = bonds_of(rule, problem);
+    return std::make_unique<RuleOnBody>(problem, bonds,
+                                        std::make_shared<const VariationalOperator>(
+                                            make_body(problem), influence_of(problem), bonds,
+                                            problem.settings.solver.operator_backend));
   }
 
-  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const VariationalOperator> matrix)
+  std::unique_ptr<method::Discretisation> discretise_by_bonds(const Rule &rule,
+                                                              const SurfaceCorrection &correction,
+                                                              const problem::Problem<2> &problem)
+  {
+    const Bonds<2> bonds = bonds_of(rule, problem);
+    return std::make_unique<RuleOnBody>(
+        problem, bonds,
+        std::make_shared<const NetworkOperator>(make_body(problem), influence_of(problem), bonds,
+                                                correction));
+  }
+
+  method::DiscreteOperator make_discrete_operator(std::shared_ptr<const BodyOperator> matrix)
   {
     const VariationalBody &body = matrix->body();
     method::DiscreteOperator result;

@@ -49,19 +49,6 @@ namespace plumbline::meshfree
       }
     }
 
-    std::vector<Neighbour> make_family(const VariationalBody &body, const Kernel<2> &influence,
-                                       const Bonds<2> &bonds)
-    {
-      check(body, bonds);
-      std::vector<Neighbour> family;
-      for (const Bond<2> &bond : bonds.family)
-        family.push_back({{static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
-                           static_cast<int>(std::lround(bond.xi[1] / bonds.h))},
-                          bond.xi,
-                          radial_value(influence, bond) * bond.weight / (bonds.h * bonds.h)});
-      return family;
-    }
-
     std::variant<Convolution, DirectSums> make_sums(const Stencil &stencil, std::array<int, 2> n,
                                                     OperatorBackend backend)
     {
@@ -79,6 +66,19 @@ namespace plumbline::meshfree
       return Convolution(stencil, n, 0);
     }
   } // namespace
+
+  std::vector<Neighbour> make_family(const VariationalBody &body, const Kernel<2> &influence,
+                                     const Bonds<2> &bonds)
+  {
+    check(body, bonds);
+    std::vector<Neighbour> family;
+    for (const Bond<2> &bond : bonds.family)
+      family.push_back({{static_cast<int>(std::lround(bond.xi[0] / bonds.h)),
+                         static_cast<int>(std::lround(bond.xi[1] / bonds.h))},
+                        bond.xi,
+                        radial_value(influence, bond) * bond.weight / (bonds.h * bonds.h)});
+    return family;
+  }
 
   VariationalOperator::VariationalOperator(VariationalBody body, const Kernel<2> &influence,
                                            const Bonds<2> &bonds, OperatorBackend backend)
@@ -156,6 +156,12 @@ namespace plumbline::meshfree
             free_V * (own_[a][i] * u0 + own_[a + 1][i] * u1 - alpha_[i] * bonds_[a * n + i] -
                       forces_[a * n + i] + minus_tau_T * g_[a][i]);
     }
+  }
+
+  algebra::SolveResult VariationalOperator::solve(Vector &u, const Vector &f, double tolerance,
+                                                  unsigned int max_iterations) const
+  {
+    return meshfree::solve(*this, u, f, tolerance, max_iterations);
   }
 
   double VariationalOperator::energy(const Vector &u) const

@@ -11,6 +11,24 @@
 
 namespace plumbline::meshfree
 {
+  /// An operator on the fields of a body, with its solver.
+  class BodyOperator : public algebra::Operator
+  {
+  public:
+    virtual const VariationalBody &body() const = 0;
+
+    /// Solve B u = f at the free nodes from u.
+    /// @param tolerance  of the residual's Euclidean norm, relative to f's; of iterations alone
+    /// @throws NumericalError  no solution
+    virtual algebra::SolveResult solve(algebra::Vector &u, const algebra::Vector &f,
+                                       double tolerance, unsigned int max_iterations) const = 0;
+  };
+
+  /// The family of all nodes of a lattice body by the weights of a rule.
+  /// @throws InputError  as VariationalOperator
+  std::vector<Neighbour> make_family(const VariationalBody &body, const Kernel<2> &influence,
+                                     const Bonds<2> &bonds);
+
   /// The one-point meshfree form of a variational state-based solid in 2D,
   ///   uᵀBu = Σ_i V_i [τ_i T_i² + α_i Σ_j V_j w_ij ρ_ij (d·(u_j - u_i))²/r²],  d = x_j - x_i,
   ///   T_i = Σ_j V_j w_ij ρ_ij d·(u_j - u_i),  τ = (4k - l)/m²,  α = l/m,  m_i = Σ_j V_j w_ij ρ_ij
@@ -21,7 +39,7 @@ namespace plumbline::meshfree
   /// Matrix-free: memory O(unknowns), time O(unknowns × bonds) or by transforms.
   /// Source: Pflug, Stingl & Zetzmann 2026, "On the convergence of the discretized linear static
   /// state-based peridynamic equations", eqs. (16)-(23).
-  class VariationalOperator : public algebra::Operator
+  class VariationalOperator : public BodyOperator
   {
   public:
     /// @param influence  ρ, up to a constant factor
@@ -39,7 +57,10 @@ namespace plumbline::meshfree
     /// uᵀBu by its form above, bond by bond.
     double energy(const algebra::Vector &u) const;
 
-    const VariationalBody &body() const { return body_; }
+    const VariationalBody &body() const override { return body_; }
+    /// By conjugate gradients, see the function below.
+    algebra::SolveResult solve(algebra::Vector &u, const algebra::Vector &f, double tolerance,
+                               unsigned int max_iterations) const override;
     const std::vector<Neighbour> &family() const { return family_; }
 
   private:

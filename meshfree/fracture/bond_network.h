@@ -61,6 +61,17 @@ namespace plumbline::meshfree
     };
     std::optional<Surfaces> surfaces;
 
+    /// A bond to a fictitious node beyond a free surface, whose u is a combination of those of
+    /// nodes. It has no dilatation. Not for bodies whose bonds break.
+    struct Extrapolated
+    {
+      unsigned int from = 0;
+      Tensor<1, dim> way;                              ///< along which it pulls, of length 1
+      double stiffness = 0;                            ///< as of bonds
+      std::vector<std::pair<unsigned int, double>> to; ///< nodes and their factors
+    };
+    std::vector<Extrapolated> extrapolated = {};
+
     /// The part of each node's bonds that is broken or cut, shape (n_nodes).
     std::vector<double> damage(const std::vector<std::size_t> &broken) const;
   };

@@ -88,6 +88,16 @@ namespace plumbline::meshfree
         result[bond.from] += f;
         result[bond.to] -= f;
       }
+    for (const typename BondNetwork<dim>::Extrapolated &bond : network.extrapolated)
+    {
+      Tensor<1, dim> stretch = -u[bond.from];
+      for (const auto &[node, factor] : bond.to)
+        stretch += factor * u[node];
+      const Tensor<1, dim> f = bond.stiffness * (bond.way * stretch) * bond.way;
+      result[bond.from] += f;
+      for (const auto &[node, factor] : bond.to)
+        result[node] -= factor * f;
+    }
     return result;
   }
 

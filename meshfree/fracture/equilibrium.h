@@ -19,7 +19,7 @@ namespace plumbline::meshfree
   Tensor<1, dim> force(const BondNetwork<dim> &network, const typename BondNetwork<dim>::Bond &bond,
                        const NodeField<dim> &u, const std::vector<double> &theta);
 
-  /// Of what is whole, on all nodes, without surface terms.
+  /// Of what is whole, on all nodes, without surface terms; with bonds to fictitious nodes.
   template <int dim>
   NodeField<dim> forces(const BondNetwork<dim> &network, const Connections<dim> &connections,
                         const NodeField<dim> &u, const std::vector<double> &theta);

@@ -17,15 +17,21 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  void NetworkTerms<dim>::add(Form &form, unsigned int node, const Tensor<1, dim> &factor) const
+  {
+    if (unknown_[node] >= 0)
+      for (unsigned int d = 0; d < dim; ++d)
+        form.entries.emplace_back(unknown_[node] + d, factor[d]);
+    else
+      form.offset += factor * network_->constrained[node];
+  }
+
+  template <int dim>
   void NetworkTerms<dim>::add(Form &form, const typename BondNetwork<dim>::Bond &bond,
                               const Tensor<1, dim> &direction) const
   {
-    for (const auto &[node, sign] : {std::pair(bond.to, 1.), std::pair(bond.from, -1.)})
-      if (unknown_[node] >= 0)
-        for (unsigned int d = 0; d < dim; ++d)
-          form.entries.emplace_back(unknown_[node] + d, sign * direction[d]);
-      else
-        form.offset += sign * (direction * network_->constrained[node]);
+    add(form, bond.to, direction);
+    add(form, bond.from, -direction);
   }
 
   template <int dim>
@@ -67,6 +73,14 @@ namespace plumbline::meshfree
         add(form, network_->bonds[b], network_->bonds[b].way);
         add_term(network_->bonds[b].stiffness, std::move(form));
       }
+    for (const typename BondNetwork<dim>::Extrapolated &bond : network_->extrapolated)
+    {
+      Form form;
+      for (const auto &[node, factor] : bond.to)
+        add(form, node, factor * bond.way);
+      add(form, bond.from, -bond.way);
+      add_term(bond.stiffness, std::move(form));
+    }
     for (std::size_t i = 0; i < network_->dilatation.size(); ++i)
       add_term(network_->dilatation[i], dilatation(i, connections));
     for (const typename Connections<dim>::Hold &hold : connections.holds())

@@ -24,6 +24,7 @@ namespace plumbline::meshfree
 
     void add(Form &form, const typename BondNetwork<dim>::Bond &bond,
              const Tensor<1, dim> &direction) const;
+    void add(Form &form, unsigned int node, const Tensor<1, dim> &factor) const; ///< factor·u
     Form dilatation(std::size_t node, const Connections<dim> &connections) const;
     Form position(const typename Connections<dim>::Hold &hold) const;
 
