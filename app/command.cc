@@ -212,6 +212,7 @@ namespace plumbline::app
       probe.add_option("--forces-are", options->forces_are,
                        "forces (default) or densities: forces per volume");
       probe.add_flag("--quiet", options->quiet, "Print nothing but errors");
+      probe.add_flag("--json", options->json, "Print a JSON object instead of the text");
       set_action(probe, request, [=] { return app::probe(*options); });
     }
 

@@ -30,7 +30,7 @@ namespace plumbline::app
       driver::watch_interrupts("\ninterrupted: stopping the force program\n");
       ProbeFindings found;
       {
-        base::ProgressLine progress(!options.quiet);
+        base::ProgressLine progress(!options.quiet && !options.json);
         std::size_t n_done = 0;
         found = meshfree::probe<dim>(
             plan,
@@ -45,7 +45,9 @@ namespace plumbline::app
       }
       check::refuse_other_forces(found, nodes);
       base::write_file(options.output, check::bonds_csv(found, nodes));
-      if (!options.quiet)
+      if (options.json)
+        std::cout << check::probe_json(plan, found, nodes, options.output);
+      else if (!options.quiet)
         std::cout << check::probe_text(plan, found, nodes, options.nodes_file, options.output);
       return 0;
     }

@@ -15,7 +15,7 @@ namespace plumbline::app
     bool all = false;           ///< displace all nodes
     std::string forces_are = "forces"; ///< of base::words<check::ForceKind>
     std::string output = "bonds.csv";
-    bool quiet = false;
+    bool quiet = false, json = false;
   };
 
   /// Derive the force constants of another program's bonds from its forces, write them as bonds for

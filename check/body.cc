@@ -44,9 +44,19 @@ namespace plumbline::check
 
     std::string word(Correction correction)
     {
-      return correction == Correction::none     ? "none"
-             : correction == Correction::volume ? "volume"
-                                                : "whole ball";
+      switch (correction)
+      {
+      case Correction::none:
+        return "none";
+      case Correction::volume:
+        return "volume";
+      case Correction::whole_ball:
+        return "whole ball";
+      case Correction::force_density:
+        return "force density";
+      default:
+        return "energy";
+      }
     }
 
     /// Of a node numbered as in its file.
@@ -114,6 +124,10 @@ namespace plumbline::check
         return "weights are multiplied by 2V0/(Vi+Vj): volume correction (Le & Bobaru 2018), where "
                "V is " +
                body.correction.size.name + "; moments are compared without it";
+      if (body.correction.correction == Correction::force_density ||
+          body.correction.correction == Correction::energy)
+        return "weights have the surface correction by the " + word(body.correction.correction) +
+               " method (Le & Bobaru 2018); moments are compared without it";
       if (body.correction.correction == Correction::whole_ball || body.n_compared == 0)
         return "";
       if (!body.is_different())
@@ -126,7 +140,7 @@ namespace plumbline::check
       return std::to_string(factors.size()) + " of " + std::to_string(body.n_compared) +
              " bonds near free surfaces and cracks have " + number(factors.front()) + " to " +
              number(factors.back()) + " times (median " + number(factors[factors.size() / 2]) +
-             ") the weights of like bonds in the interior: this is not the volume correction";
+             ") the weights of like bonds in the interior: no surface correction that is known";
     }
 
     /// Moments near free surfaces or cracks that are farther off than is allowed. Of half lists all
@@ -381,7 +395,7 @@ namespace plumbline::check
       json["families"].push_back(families_json(found, cut));
     json["correction"] = {
         {"name", word(correction.correction)},
-        {"volume", correction.correction == Correction::none ? Json() : Json(correction.size.name)},
+        {"volume", correction.size.name.empty() ? Json() : Json(correction.size.name)},
         {"difference_before", correction.before},
         {"difference_after", correction.after}};
     json["crossing"] = pairs_json(found, body.crossing);

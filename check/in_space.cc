@@ -157,7 +157,7 @@ namespace plumbline::check
     static_cast<FindingsInSpace &>(found) =
         meshfree::find_defects(found.given, kernel, omega, scene.methods.names);
     found.complaints = complaints(found, found.given, required, found.level);
-    found.assumed = assumed_horizon(scene, input, found.level);
+    found.assumed = assumptions(scene, input, found.level);
     return found;
   }
 

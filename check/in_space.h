@@ -12,7 +12,7 @@ namespace plumbline::check
     meshfree::WeightsInSpace given;
     problem::Level level;                ///< of the scene
     std::vector<std::string> complaints; ///< what makes the exit code 1
-    std::string assumed;                 ///< see assumed_horizon()
+    std::string assumed;                 ///< see assumptions()
   };
 
   /// @pre     scene.domain.is_in_space()

@@ -32,7 +32,8 @@ namespace plumbline::check
       if (names == scene::all)
         return meshfree::rules();
       std::vector<Rule> available = meshfree::rules();
-      available.insert(available.end(), own.begin(), own.end());
+      for (const std::vector<Rule> *table : {&meshfree::rules_on_request(), &own})
+        available.insert(available.end(), table->begin(), table->end());
       std::vector<Rule> chosen;
       std::string known;
       for (const Rule &rule : available)
@@ -48,6 +49,10 @@ namespace plumbline::check
                                { return base::to_lower(rule.name) == ours; });
         if (found == available.end())
           throw InputError("--rules: '" + name + "' is not known; choose all or some of " + known);
+        if (found->is_scalar)
+          throw InputError("--rules: '" + found->name +
+                           "' has weights for scalar kernels alone, which have no elastic "
+                           "constants; take GFD or IPA-AC-R2");
         chosen.push_back(*found);
       }
       return chosen;

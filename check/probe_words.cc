@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "io/results_json.h"
 #include "report/text_table.h"
 
 #include <algorithm>
@@ -128,6 +129,37 @@ namespace plumbline::check
     return out.str();
   }
 
+  template <int dim>
+  std::string probe_json(const meshfree::ProbePlan<dim> &plan, const ProbeFindings &found,
+                         const ProgramNodes<dim> &nodes, const std::string &bonds_file)
+  {
+    analysis::Record record;
+    record.key.analysis = "probe";
+    record.key.method = "given forces";
+    record.key.horizon = plan.settings.horizon;
+    record.set("dimension", dim);
+    record.set("nodes", static_cast<double>(nodes.id.size()));
+    record.set("displaced nodes", static_cast<double>(plan.displaced.size()));
+    record.set("step", plan.settings.step);
+    record.set("runs", static_cast<double>(plan.n_runs()));
+    record.set("bonds", static_cast<double>(found.bonds.size()));
+    record.set("largest force constant", found.largest);
+    record.set("pairs with both nodes displaced", static_cast<double>(found.n_two_sided));
+    if (found.n_two_sided > 0)
+      record.set("asymmetry", found.asymmetry.value);
+    record.set("imbalance", found.imbalance);
+    record.set("noncentral part", found.noncentral.value);
+    record.set("nonlinearity", found.nonlinearity);
+    record.set("nodes with forces at rest", static_cast<double>(found.n_loaded));
+    record.texts["bonds file"] = bonds_file;
+    record.notes = warnings(found, nodes);
+    study::StudyResults results;
+    results.analysis = "probe";
+    results.purpose = "Force constants by the forces of another program";
+    results.records = {record};
+    return io::to_json(results);
+  }
+
   template void refuse_other_forces(const ProbeFindings &, const ProgramNodes<2> &);
   template void refuse_other_forces(const ProbeFindings &, const ProgramNodes<3> &);
   template std::string bonds_csv(const ProbeFindings &, const ProgramNodes<2> &);
@@ -138,4 +170,8 @@ namespace plumbline::check
   template std::string probe_text(const meshfree::ProbePlan<3> &, const ProbeFindings &,
                                   const ProgramNodes<3> &, const std::string &,
                                   const std::string &);
+  template std::string probe_json(const meshfree::ProbePlan<2> &, const ProbeFindings &,
+                                  const ProgramNodes<2> &, const std::string &);
+  template std::string probe_json(const meshfree::ProbePlan<3> &, const ProbeFindings &,
+                                  const ProgramNodes<3> &, const std::string &);
 } // namespace plumbline::check

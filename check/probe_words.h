@@ -22,4 +22,10 @@ namespace plumbline::check
   std::string probe_text(const meshfree::ProbePlan<dim> &plan, const meshfree::ProbeFindings &found,
                          const ProgramNodes<dim> &nodes, const std::string &nodes_file,
                          const std::string &bonds_file);
+
+  /// For programs, as lib/io/results.schema.json describes it: one record, its notes are the
+  /// warnings.
+  template <int dim>
+  std::string probe_json(const meshfree::ProbePlan<dim> &plan, const meshfree::ProbeFindings &found,
+                         const ProgramNodes<dim> &nodes, const std::string &bonds_file);
 } // namespace plumbline::check

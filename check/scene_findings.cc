@@ -211,8 +211,8 @@ namespace plumbline::check
     }
   } // namespace
 
-  std::string assumed_horizon(const scene::Scene &scene, const Input &input,
-                              const problem::Level &level)
+  std::string assumptions(const scene::Scene &scene, const Input &input,
+                          const problem::Level &level)
   {
     const scene::Regime regime = scene.study.regime;
     const bool is_fixed = regime == scene::Regime::m || regime == scene::Regime::horizon;
@@ -220,8 +220,8 @@ namespace plumbline::check
     std::error_code error; // a pipe cannot be read again
     if (!std::filesystem::is_regular_file(input.scene_file, error) ||
         !scene::value_of_key(input.scene_file, input.overrides, key).empty())
-      return "";
-    return key + " is not given: " +
+      return input.assumption;
+    return (input.assumption.empty() ? "" : input.assumption + "; ") + key + " is not given: " +
            (is_fixed ? "the horizon " + base::to_text(level.horizon, 6)
                      : "m = horizon / h = " + base::to_text(level.horizon / level.h, 6)) +
            " is assumed";
@@ -267,7 +267,7 @@ namespace plumbline::check
     find_defects(body, "--crack", to_bond_values(input.bonds_are, "--bonds-are"),
                  std::move(weights), cells.uncut_areas, std::move(problem), scene.methods.names,
                  found);
-    found.notes = all_notes(found, assumed_horizon(scene, input, found.level.level), input);
+    found.notes = all_notes(found, assumptions(scene, input, found.level.level), input);
     if (body.is_there())
       return found; // without a constraint all around, or with cracks, solutions are other ones
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)

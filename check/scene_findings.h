@@ -24,6 +24,7 @@ namespace plumbline::check
     std::string boundary = "constrained";           ///< or free: that of the domain is a surface
     std::vector<std::string> cracks;                ///< each "x0, y0 : x1, y1", like Domain/cracks
     std::vector<scene::Override> overrides;         ///< of the scene
+    std::string assumption; ///< on what neither the scene nor the command gives; may be empty
   };
 
   /// A level of a scene, and what led to it.
@@ -62,9 +63,9 @@ namespace plumbline::check
   };
 
   /// Says that the horizon is the default one, where neither the scene file nor the command gives
-  /// it; else empty.
-  std::string assumed_horizon(const scene::Scene &scene, const Input &input,
-                              const problem::Level &level);
+  /// it, and what else is assumed; empty: nothing.
+  std::string assumptions(const scene::Scene &scene, const Input &input,
+                          const problem::Level &level);
 
   /// @param references  Galerkin methods for the solutions that those by the weights are held
   /// against

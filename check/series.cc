@@ -195,7 +195,7 @@ namespace plumbline::check
     }
     found.results = conclude(files.scene, found.levels);
     found.trends = trends_of(found.results);
-    found.assumed = assumed_horizon(files.scene, files.inputs.front(), files.levels.front());
+    found.assumed = assumptions(files.scene, files.inputs.front(), files.levels.front());
     return found;
   }
 

@@ -31,7 +31,7 @@ namespace plumbline::check
     std::vector<Findings> levels;
     study::StudyResults results;
     std::vector<study::Trend> trends; ///< of the weights, by the error that decides
-    std::string assumed;              ///< see assumed_horizon()
+    std::string assumed;              ///< see assumptions()
   };
 
   /// @param references  as of find(), whose errors it throws

@@ -13,9 +13,13 @@
 #include "driver/provenance.h"
 #include "driver/scene_input.h"
 #include "io/output_folder.h"
+#include "physics/kernel.h"
 #include "reference/method.h"
+#include "scene/models/model.h"
 #include "scene/scene_keys.h"
+#include "scene/values.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <iostream>
@@ -42,6 +46,37 @@ namespace plumbline::driver
       if (value_of("Domain/boundary") == "free")
         throw InputError("'plumbline check' does not support free bodies of scenes: "
                          "Domain/boundary = free; write constrained, and give --boundary free");
+    }
+
+    /// The weights of a file are what they are: a scene need not name rules or pose a problem. All
+    /// rules count as meant then, and a smooth solution is taken. Scenes that are pipes cannot be
+    /// read twice and are left as they are.
+    CheckOptions with_defaults(CheckOptions options)
+    {
+      std::error_code error;
+      if (!fs::is_regular_file(options.scene_file, error))
+        return options;
+      const auto value_of = [&](const std::string &key)
+      { return scene::value_of_key(options.scene_file, options.overrides, key); };
+      if (value_of("Methods/names").empty())
+        options.overrides.push_back({"Methods/names", scene::all});
+      if (!value_of("Problem/solution").empty() || !value_of("Problem/load").empty())
+        return options;
+      const std::string model = value_of("Material/model");
+      const auto &types = physics::kernel_types();
+      const auto type = std::find_if(types.begin(), types.end(),
+                                     [name = value_of("Kernel/type")](const auto &one)
+                                     { return one.name == name; });
+      const bool is_vector = !(model.empty() || model == scene::bond_based().name()) ||
+                             (type != types.end() && type->structure == physics::Structure::tensor),
+                 is_in_space = value_of("Domain/dimension") == "3";
+      const std::string solution = is_in_space ? (is_vector ? "x, y, z" : "x")
+                                   : is_vector ? "sin(3*x)*cos(2*y), cos(x)*sin(3*y)"
+                                               : "sin(3*x)*cos(2*y)";
+      options.overrides.push_back({"Problem/solution", solution});
+      if (!is_in_space) // there nothing is solved
+        options.assumption = "Problem/solution is not given: u = " + solution + " is solved for";
+      return options;
     }
 
     /// Free surfaces and cracks are known in the plane, at one level.
@@ -133,9 +168,10 @@ namespace plumbline::driver
     }
   } // namespace
 
-  int check(const CheckOptions &options)
+  int check(const CheckOptions &given)
   {
     end_at_interrupts();
+    const CheckOptions options = with_defaults(given);
     const check::Requirements required = check::parse_requirements(options.required);
     refuse_other_bodies(options);
     SceneOptions input;

@@ -69,6 +69,30 @@ namespace plumbline::meshfree
       return spread_of(of_bulk).median;
     }
 
+    /// Sums of a method along both axes, relative to their medians in the bulk.
+    FamilySize axis_sums(const SurfaceCorrection &method, const GivenWeights &given,
+                         const BulkBonds &bulk, const std::vector<char> &is_bulk,
+                         const Kernel<2> &kernel)
+    {
+      FamilySize size;
+      size.sums.resize(given.cells->size());
+      size.places = given.cells->nodes;
+      for (unsigned int axis = 0; axis < 2; ++axis)
+      {
+        const std::vector<double> values =
+            sums(given, bulk,
+                 [&](const Bond<2> &bond, double ratio)
+                 {
+                   const double stiffness = ratio * radial_value(kernel, bond);
+                   return method.of_bond(bond.xi, ratio, stiffness)[axis];
+                 });
+        const double in_bulk = median_in(values, is_bulk);
+        for (std::size_t i = 0; i < values.size(); ++i)
+          size.sums[i][axis] = values[i] / in_bulk;
+      }
+      return size;
+    }
+
     /// A bond that a correction changes, and its weight over the neighbour's volume.
     struct Changed
     {
@@ -114,7 +138,10 @@ namespace plumbline::meshfree
     if (correction == Correction::none)
       return 1;
     const double result =
-        factor_of(correction, size.in_bulk, size.values[node], size.values[neighbour]);
+        !size.sums.empty()
+            ? on_ellipse(size.sums[node], size.sums[neighbour],
+                         size.places[neighbour] - size.places[node])
+            : factor_of(correction, size.in_bulk, size.values[node], size.values[neighbour]);
     return std::isfinite(result) ? result : 1;
   }
 
@@ -128,19 +155,27 @@ namespace plumbline::meshfree
     if (bonds.empty())
       return best;
     best.before = best.after = difference(bonds, bulk, best);
+    const auto attempt = [&](Correction correction, const FamilySize &size)
+    {
+      FoundCorrection one{correction, size, best.before, 0};
+      const auto factor = [&](std::size_t i, std::size_t j) { return one.factor(i, j); };
+      // families of scattered nodes differ in V, and those of small bodies have cut neighbours
+      one.after = difference(bonds, bulk.without(factor, given, is_bulk), one);
+      if (one.before > alike && one.after < near && one.after < explained * one.before &&
+          one.after < best.after)
+        best = one;
+    };
     for (FamilySize &size : sizes(given, bulk, visible, kernel))
     {
       size.in_bulk = median_in(size.values, is_bulk);
       for (const Correction correction : {Correction::volume, Correction::whole_ball})
-      {
-        FoundCorrection one{correction, size, best.before, 0};
-        const auto factor = [&](std::size_t i, std::size_t j) { return one.factor(i, j); };
-        // families of scattered nodes differ in V, and those of small bodies have cut neighbours
-        one.after = difference(bonds, bulk.without(factor, given, is_bulk), one);
-        if (one.before > alike && one.after < near && one.after < explained * one.before &&
-            one.after < best.after)
-          best = one;
-      }
+        attempt(correction, size);
+    }
+    if (kernel.n_components() > 1)
+    {
+      attempt(Correction::force_density,
+              axis_sums(force_density_method(), given, bulk, is_bulk, kernel));
+      attempt(Correction::energy, axis_sums(energy_method(), given, bulk, is_bulk, kernel));
     }
     return best;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshfree/check/bulk_bonds.h"
+#include "meshfree/surface/corrections.h"
 
 #include <functional>
 
@@ -14,7 +15,9 @@ namespace plumbline::meshfree
     /// V0 that of one in the bulk. Source: the volume method of Le & Bobaru 2018,
     /// doi:10.1007/s00466-017-1469-1.
     volume,
-    whole_ball ///< by V0 / V_i: every family has the sums of one in the bulk
+    whole_ball,    ///< by V0 / V_i: every family has the sums of one in the bulk
+    force_density, ///< by force_density_method(), of bond tensors alone
+    energy         ///< by energy_method(), of bond tensors alone
   };
 
   /// One of the quantities that are used for V.
@@ -23,6 +26,10 @@ namespace plumbline::meshfree
     std::string name;           ///< e.g. "the area of the visible part"
     std::vector<double> values; ///< of each node, numbered as the cells; NaN: not known
     double in_bulk = 0;         ///< V0
+    /// Of the force density and the energy method instead: sums along the axes relative to those of
+    /// the bulk, and where the nodes are [length].
+    std::vector<AxisSums> sums = {};
+    std::vector<Point<2>> places = {};
   };
 
   struct FoundCorrection

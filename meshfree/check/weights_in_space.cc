@@ -349,8 +349,11 @@ namespace plumbline::meshfree
       std::optional<Match> best;
       const auto is_meant = [&](const std::string &name)
       { return std::find(meant.begin(), meant.end(), name) != meant.end(); };
-      for (const Rule &rule : rules())
-        if (rule.in_space)
+      std::vector<Rule> all = rules();
+      all.insert(all.end(), rules_on_request().begin(), rules_on_request().end());
+      const bool is_tensor = kernel.n_components() > 1;
+      for (const Rule &rule : all)
+        if (rule.in_space && !(rule.is_scalar && is_tensor))
           try
           {
             const auto bonds = lattice_bonds(rule.in_space(kernel), kernel, h, Backend::fast);

@@ -272,3 +272,36 @@ TEST(Check, refuses_a_study_over_a_variable)
   EXPECT_EQ(outcome.exit_code, 2);
   expect_found(outcome.err, "weights are those of one value of a; give it as Random/values");
 }
+
+TEST(Check, needs_neither_rules_nor_a_problem)
+{
+  const std::string text = read(folder / "check.prm");
+  const std::string file =
+      write("short.prm",
+            [&]
+            {
+              std::string result = text;
+              for (const std::string section : {"subsection Problem", "subsection Methods"})
+              {
+                const auto from = result.find(section);
+                result.erase(from, result.find("end\n", from) + 4 - from);
+              }
+              return result;
+            }());
+  const Outcome outcome = run("check " + nodes_file + " " + bonds_file + " -o " +
+                              temporary("short").string() + " --scene " + file);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "Problem/solution is not given: u = sin(3*x)*cos(2*y) is solved for");
+  expect_found(outcome.out, "the weights are those of IPA-AC-R2");
+  const Outcome given =
+      run("check " + nodes_file + " " + bonds_file + " -o " + temporary("short").string() +
+          " --scene " + file + " --set 'Problem/solution=x^2' --set Methods/names=FA");
+  EXPECT_EQ(given.exit_code, 0) << given.err;
+  EXPECT_EQ(given.out.find("is not given: u"), std::string::npos) << given.out;
+  // what has no solution, but a load, is as before
+  const Outcome loaded =
+      run("check " + nodes_file + " " + bonds_file + " -o " + temporary("short").string() +
+          " --scene " + file + " --set Problem/load=1");
+  EXPECT_EQ(loaded.exit_code, 2);
+  expect_found(loaded.err, "Problem/constraint = solution, but Problem/solution is empty");
+}

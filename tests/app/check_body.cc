@@ -349,6 +349,43 @@ TEST(CheckBody, solids_are_softer_at_surfaces)
   EXPECT_LT(families_of(found, "surface")["second_moments"]["median"], .15);
 }
 
+// factors as Madenci & Oterkus 2014, sec. 4.2, by sums over the bonds that there are
+TEST(CheckBody, corrections_by_uniaxial_strains_are_named)
+{
+  const std::string solid = " --set Kernel/type=bond-tensor --set Kernel/limit=Navier --set "
+                            "'Problem/solution=x, y' --require moments=0.4 ";
+  for (const auto &[name, power] : {std::pair("force density", 3), std::pair("energy", 4)})
+  {
+    Body body(
+        true, "FA", 0,
+        {{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}, {"Problem/solution", "x, y"}});
+    std::array<std::vector<double>, 2> sums; // of c d_a^power / r², c = 1/r
+    for (unsigned int a = 0; a < 2; ++a)
+      sums[a] = body.sums(
+          [&, p = power](const Bond<2> &bond) {
+            return bond.weight * std::pow(std::abs(bond.xi[a]), p) / std::pow(bond.xi.norm(), 3);
+          });
+    const size_t inner = body.at(.5 + h / 2, .5 + h / 2);
+    body.multiply(
+        [&](size_t i, size_t j)
+        {
+          const auto d = body.nodes[j] - body.nodes[i];
+          double sum = 0;
+          for (unsigned int a = 0; a < 2; ++a)
+            sum += std::pow(
+                d[a] / d.norm() / (.5 * sums[a][inner] * (1 / sums[a][i] + 1 / sums[a][j])), 2);
+          return 1 / std::sqrt(sum);
+        });
+    const Outcome outcome = body.check(free_boundary + solid);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    expect_found(outcome.out, std::string("the surface correction by the ") + name +
+                                  " method (Le & Bobaru 2018)");
+    const auto found = parse_json(body.check(free_boundary + solid + "--json").out);
+    EXPECT_EQ(found["body"]["correction"]["name"], name);
+    EXPECT_LT(found["body"]["correction"]["difference_after"], 1e-10);
+  }
+}
+
 TEST(CheckBody, scattered_nodes_are_compared_by_length)
 {
   Body body(true, "FA", .1, {{"Kernel/type", "constant"}});

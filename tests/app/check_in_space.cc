@@ -75,10 +75,8 @@ end
                                         physics::kernel_type("bond-tensor").profile, m * h, 1)
                                   : physics::Kernel<3>::with_diffusion(
                                         physics::kernel_type("linear-decay").profile, m * h, .5);
-    const auto all = meshfree::rules();
-    const auto rule =
-        std::find_if(all.begin(), all.end(), [&](const auto &one) { return one.name == name; });
-    const auto bonds = lattice_bonds(rule->in_space(kernel), kernel, h, geometry::Backend::fast);
+    const meshfree::Rule &rule = meshfree::find_rule(name, "rule");
+    const auto bonds = lattice_bonds(rule.in_space(kernel), kernel, h, geometry::Backend::fast);
     constexpr int margin = m + 1, width = n + 2 * margin;
     const auto index = [](const std::array<int, 3> &at)
     { return at[0] + margin + width * (at[1] + margin + width * (at[2] + margin)); };
@@ -175,7 +173,10 @@ TEST_F(CheckInSpace, passes_right_weights_however_they_are_written)
       {"IPA-AC-R2", false, [](Dump &one) { one.separator = ";"; }, ""},
       {"IPA-AC-R2", true, [](Dump &one) { one.first_id = 1000; }, ""},
       {"FA", false, as_it_is, "--require moments=0.05"},
-      {"PA-AC", true, as_it_is, "--require symmetric"}};
+      {"PA-AC", true, as_it_is, "--require symmetric"},
+      {"GFD", true, as_it_is, ""}, // rules that `all` leaves out
+      {"PDDO", false, as_it_is, ""},
+      {"GMLS", false, as_it_is, ""}};
   for (const auto &[rule, is_tensor, change, options] : all)
   {
     Dump one = dump(rule, is_tensor);
@@ -185,6 +186,28 @@ TEST_F(CheckInSpace, passes_right_weights_however_they_are_written)
     EXPECT_EQ(outcome.exit_code, 0) << rule << outcome.out << outcome.err;
     EXPECT_NE(outcome.out.find("the weights are those of " + rule + "\n"), std::string::npos)
         << outcome.out;
+  }
+}
+
+TEST_F(CheckInSpace, needs_neither_rules_nor_a_problem)
+{
+  for (const bool is_tensor : {false, true})
+  {
+    write(dump("IPA-AC-R2", is_tensor));
+    const Outcome whole = check("IPA-AC-R2", is_tensor);
+    std::ifstream file(folder_ / "scene.prm");
+    std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    for (const std::string section : {"subsection Problem", "subsection Methods"})
+    {
+      const auto from = text.find(section);
+      text.erase(from, text.find("end\n", from) + 4 - from);
+    }
+    std::ofstream(folder_ / "short.prm") << text;
+    const Outcome outcome =
+        run("check " + (folder_ / "nodes.csv").string() + " " + (folder_ / "bonds.csv").string() +
+            " --scene " + (folder_ / "short.prm").string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, whole.out);
   }
 }
 

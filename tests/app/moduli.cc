@@ -70,6 +70,21 @@ TEST(ModuliCommand, knows_three_dimensions)
   EXPECT_NEAR(scalar(found[1], "nu"), .25, 1e-12);
 }
 
+// GFD and R2c have exact second moments, of tensors at the centroid too
+TEST(ModuliCommand, knows_rules_that_all_leaves_out)
+{
+  for (const std::string state : {"strain", "3D"})
+  {
+    const Json found = records("--state " + state + " --m 3 --E 200 --rules gfd,IPA-AC-R2c,GFDM");
+    ASSERT_EQ(found.size(), 3u);
+    for (const Json &one : found)
+      EXPECT_NEAR(scalar(one, "E"), 200, 1e-8) << one;
+  }
+  const Json all = records("--m 3");
+  for (const Json &one : all)
+    EXPECT_NE(one.at("key").at("method"), "GFD");
+}
+
 TEST(ModuliCommand, says_which_rule_has_no_weights)
 {
   const Json found = records("--state 3D --m 1.5 --rules OPT,FA");
@@ -92,6 +107,10 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--m nan", "--m");
   expect("--m 3,015", "looks like a number with a decimal comma; write 3.015");
   expect("--rules XY", "choose all or some of FA, LAMMPS");
+  expect("--rules XY", "GFD, PDDO, GMLS, IPA-AC-R2c");
+  for (const std::string rule : {"PDDO", "gmls"})
+    expect("--rules FA," + rule, "has weights for scalar kernels alone, which have no elastic "
+                                 "constants; take GFD or IPA-AC-R2");
   expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
   expect("--E 0", "give a number above 0");
 }

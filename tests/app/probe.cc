@@ -5,6 +5,8 @@
 #include "base/number_text.h"
 #include "meshfree/rules/rules.h"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -345,4 +347,32 @@ TEST_F(Probe, writes_no_file_when_interrupted)
                          path("begun")),
             130);
   EXPECT_FALSE(fs::exists(path("probed.csv")));
+}
+
+TEST_F(Probe, gives_its_findings_to_programs)
+{
+  write_program<2>("OPT", 2);
+  const Outcome text = probe(program(), "--horizon 1"),
+                outcome = probe(program(), "--horizon 1 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_recovered(4);
+  const auto found = parse_json(outcome.out);
+  EXPECT_EQ(found["analysis"], "probe");
+  ASSERT_EQ(found["records"].size(), 1u);
+  const auto &record = found["records"][0];
+  const auto scalar = [&](const std::string &name) -> double
+  { return record["scalars"][name]["value"]; };
+  EXPECT_EQ(scalar("dimension"), 2);
+  EXPECT_EQ(scalar("displaced nodes"), 4);
+  EXPECT_EQ(scalar("bonds"), constants("probed.csv").size());
+  expect_found(text.out, "runs       " + std::to_string(static_cast<int>(scalar("runs"))) + " of");
+  EXPECT_LT(scalar("asymmetry"), 1e-8);
+  EXPECT_LT(scalar("nonlinearity"), 1e-8);
+  EXPECT_EQ(record["texts"]["bonds file"], path("probed.csv"));
+  EXPECT_TRUE(record["notes"].empty());
+  // what is a warning of the text is a note
+  const auto uneven =
+      parse_json(probe(program("-v cubic=1e8"), "--horizon 1 --step 2e-6 --json").out);
+  ASSERT_FALSE(uneven["records"][0]["notes"].empty());
+  expect_found(uneven["records"][0]["notes"][0], "force constants change by ");
 }
