@@ -1,6 +1,7 @@
 #include "report/page.h"
 
 #include "report/counted.h"
+#include "report/energy_table.h"
 #include "report/equation.h"
 #include "report/page_parts.h"
 #include "report/report_parts.h"
@@ -202,6 +203,7 @@ namespace plumbline::report
         data["diagnostics"] = table(diagnostics_table(results));
         data["tip_forces"] = table(tip_force_table(results));
         data["bounds"] = table(bound_table(results));
+        data["energies"] = table(energy_table(results));
         data["provenance"] = provenance(results);
         data["scene_text"] = results.scene_text;
         return data;

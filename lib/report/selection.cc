@@ -130,6 +130,8 @@ namespace plumbline::report
 
   std::string unit_of_errors(const study::StudyResults &results)
   {
+    if (study::is_energy(results.decisive_error))
+      return "root of the unit of energy";
     return study::is_truncation(results.decisive_error) ? "unit of the load"
                                                         : "unit of the solution";
   }

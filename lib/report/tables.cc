@@ -1,5 +1,6 @@
 #include "report/tables.h"
 
+#include "report/energy_table.h"
 #include "report/text_table.h"
 #include "study/solution_record.h"
 #include "study/trend.h"
@@ -376,5 +377,7 @@ namespace plumbline::report
       write_table(tips, folder / "tip_forces");
     if (const Table bounds = bound_table(results); !bounds.rows.empty())
       write_table(bounds, folder / "bounds");
+    if (const Table energies = energy_table(results); !energies.rows.empty())
+      write_table(energies, folder / "energies");
   }
 } // namespace plumbline::report

@@ -269,13 +269,14 @@ namespace plumbline::scene
     require(std::find(study.norms.begin(), study.norms.end(), norm) != study.norms.end(),
             decisive + " must be 'norm | target' with a norm of Study/norms (add it there) and a "
                        "target of exact, local, reference, own finest level");
-    const bool is_of_equations =
-        quantity(norm) == Quantity::truncation || quantity(norm) == Quantity::bound;
+    const bool is_of_equations = quantity(norm) == Quantity::truncation ||
+                                 quantity(norm) == Quantity::bound ||
+                                 quantity(norm) == Quantity::energy;
     require(
         !is_of_equations || target == Target::exact || target == Target::local,
         decisive +
-            ": truncation errors, and the bounds that follow from them, need a known solution; use "
-            "the target exact or local");
+            ": truncation errors, the bounds that follow from them, and energies of errors need a "
+            "known solution; use the target exact or local");
     require(target != Target::exact || !scene.problem.solutions.empty(),
             decisive + " needs Problem/solution, which is empty; " + without_solution(reference));
     require(target != Target::local || local != LocalSolution::computed || is_of_averages,

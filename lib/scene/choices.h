@@ -78,7 +78,8 @@ namespace plumbline::scene
     averages,
     field,
     truncation, ///< no solution: what the exact one leaves of the equations
-    bound       ///< no solution: what follows from that and the norm of the inverse
+    bound,      ///< no solution: what follows from that and the norm of the inverse
+    energy      ///< nodal values, in the norm of the method's own bilinear form
   };
 
   enum class Norm
@@ -92,7 +93,8 @@ namespace plumbline::scene
     truncation_linf,
     truncation_l2,
     bound_linf,
-    bound_l2
+    bound_l2,
+    energy
   };
   constexpr Quantity quantity(Norm norm)
   {
@@ -101,7 +103,7 @@ namespace plumbline::scene
 
   constexpr bool is_largest(Norm norm) ///< Linf
   {
-    return static_cast<int>(norm) % 2 == 0;
+    return static_cast<int>(norm) % 2 == 0 && norm != Norm::energy;
   }
 
   /// What a solution is compared with.
@@ -159,11 +161,12 @@ namespace plumbline::base
       std::array{"m", "delta", "delta-m", "horizon", "variable"};
   template <>
   inline constexpr auto words<scene::Quantity> =
-      std::array{"nodal", "averages", "field", "truncation", "bound"};
+      std::array{"nodal", "averages", "field", "truncation", "bound", "energy"};
   template <>
   inline constexpr auto words<scene::Norm> =
-      std::array{"nodal Linf", "nodal L2",        "averages Linf", "averages L2", "field Linf",
-                 "field L2",   "truncation Linf", "truncation L2", "bound Linf",  "bound L2"};
+      std::array{"nodal Linf", "nodal L2", "averages Linf",   "averages L2",
+                 "field Linf", "field L2", "truncation Linf", "truncation L2",
+                 "bound Linf", "bound L2", "energy"};
   template <>
   inline constexpr auto words<scene::Target> =
       std::array{"exact", "local", "reference", "own finest level"};

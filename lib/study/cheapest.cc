@@ -40,6 +40,8 @@ namespace plumbline::study
 
   std::string relative_to(const std::string &error)
   {
+    if (is_energy(error))
+      return "the energy norm of the solution";
     const bool is_l2 = norm_of_one(error, 4) != 1;
     if (is_truncation(error))
       return std::string("the largest load") + (is_l2 ? " times the root of the area" : "");

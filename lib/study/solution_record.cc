@@ -47,6 +47,8 @@ namespace plumbline::study
 
   double size_of(const Record &record, const std::string &error)
   {
+    if (is_energy(error))
+      return value_of(record, "energy size", 0);
     return in_norm_of(record, error, "variation", "largest load");
   }
 
@@ -55,6 +57,8 @@ namespace plumbline::study
     if (is_bound(error))
       return value_of(record, "inverse norm", 0) *
              in_norm_of(record, error, "truncation round-off", "");
+    if (is_energy(error))
+      return value_of(record, "largest energy norm", 0) * value_of(record, "round-off", 0);
     return in_norm_of(record, error, "round-off", "truncation round-off");
   }
 

@@ -5,6 +5,7 @@
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
+#include "study/energy.h"
 #include "study/motion_norms.h"
 #include "study/node_warnings.h"
 #include "study/preflight.h"
@@ -160,6 +161,7 @@ namespace plumbline::study
         for (const auto &[error, value] : found)
           run.set(error, value);
         enter_truncation(method, scene_.study.norms, problem, run);
+        enter_energies(method, scene_.study.norms, problem, solution.nodes, solution.nodal, run);
         if (options_.has_fields)
           run.fields[field_name] = field_of(problem, solution);
         if (scene_.study.decisive_error.target == scene::Target::finest)

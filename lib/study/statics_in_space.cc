@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "physics/gauss.h"
 #include "study/comparison.h"
+#include "study/energy.h"
 #include "study/estimate_in_space.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
@@ -192,6 +193,8 @@ namespace plumbline::study
                             analysis::solve(method, one.problem, ranks_);
                         evaluate(one, solution, record);
                         enter_truncation(method, scene_.study.norms, one.problem, record);
+                        enter_energies(method, scene_.study.norms, one.problem, solution.nodes,
+                                       solution.nodal, record, ranks_);
                         tell_values(method, one, solution, record);
                       });
         }

@@ -355,6 +355,11 @@ namespace plumbline::study
     return error.rfind("bound ", 0) == 0;
   }
 
+  bool is_energy(const std::string &error)
+  {
+    return error.rfind(base::word(scene::Norm::energy) + " |", 0) == 0;
+  }
+
   bool is_against(const std::string &error, scene::Target target)
   {
     const std::string end = "| " + base::word(target);

@@ -21,7 +21,8 @@ namespace plumbline::study
 
   /// An error is by how much a field fails the equations, see study/truncation.h.
   bool is_truncation(const std::string &error);
-  bool is_bound(const std::string &error); ///< made of a truncation error
+  bool is_bound(const std::string &error);  ///< made of a truncation error
+  bool is_energy(const std::string &error); ///< in the energy norm, see study/energy.h
 
   /// An error as 'norm | target' is held against this target.
   bool is_against(const std::string &error, scene::Target target);

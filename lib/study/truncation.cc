@@ -2,11 +2,10 @@
 
 #include "analysis/stability.h"
 #include "base/error.h"
-#include "method/discretisation.h"
-#include "method/discretisation_in_space.h"
-#include "method/linear_equations.h"
+#include "method/discrete_operator.h"
 #include "scene/choices.h"
 #include "scene/study_sections.h"
+#include "study/equations.h"
 #include "study/motion_norms.h"
 
 #include <algorithm>
@@ -18,32 +17,6 @@ namespace plumbline::study
 {
   namespace
   {
-    auto discretise(const Method &method, const problem::Problem<2> &problem)
-    {
-      return method.discretise(problem);
-    }
-
-    auto discretise(const Method &method, const problem::Problem<3> &problem)
-    {
-      return method.discretise_in_space(problem);
-    }
-
-    /// With the constraint of the problem at constrained nodes.
-    /// @pre method is meshfree: its equations hold at nodes
-    template <int dim>
-    method::LinearEquations<dim> equations(const Method &method,
-                                           const problem::Problem<dim> &problem)
-    {
-      const auto discretisation = discretise(method, problem);
-      const auto *able =
-          dynamic_cast<const method::HasLinearEquations<dim> *>(discretisation.get());
-      if (able == nullptr)
-        throw InputError(
-            "Study/norms: truncation errors and bounds need the sparse matrix of a rule, and "
-            "bodies with a free boundary are solved without one; write nodal or averages norms");
-      return able->equations(problem);
-    }
-
     /// By how much a field fails the equations of a rule.
     struct Truncation
     {
@@ -123,7 +96,7 @@ namespace plumbline::study
     if (method.family() != method::MethodFamily::meshfree ||
         !(has(Quantity::truncation) || has(Quantity::bound)))
       return;
-    const auto of = equations(method, problem);
+    const auto of = equations_of(method, problem);
     analysis::Stability stability;
     if (has(Quantity::bound))
     {

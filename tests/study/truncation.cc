@@ -4,6 +4,7 @@
 
 #include "scene/problem.h"
 #include "study/solution_record.h"
+#include "study/trend.h"
 #include "tests/study/space_scene.h"
 
 #include <gtest/gtest.h>
@@ -184,6 +185,22 @@ TEST(Truncation, is_relative_to_the_load)
   EXPECT_NEAR(size_of(record, l2), 2 * record["largest load"], 1e-12); // the root of the area is 2
   EXPECT_EQ(round_off_of(record, largest), record["truncation round-off"]);
   EXPECT_EQ(size_of(record, "nodal Linf | exact"), record["variation"]);
+}
+
+// Pflug, Stingl & Zetzmann 2026, proposition 3.17: at a fixed horizon one-point rules tend to L u
+// in L2, here at the nodes, from whose averages L u differs by O(h).
+TEST(Truncation, of_one_point_rules_tends_to_zero_at_a_fixed_horizon)
+{
+  const StudyResults results = results_of({{"Methods/names", "FA, PA-AC"},
+                                           {"Study/regime", "m"},
+                                           {"Study/horizon", "0.4"},
+                                           {"Study/h", "0.2, 0.1, 0.05"}});
+  for (const std::string name : {"FA", "PA-AC"})
+  {
+    const Trend &trend = trend_of(results, name, "truncation L2 | exact");
+    EXPECT_LT(trend.values.back(), .1 * trend.values.front()) << name;
+    EXPECT_GT(fit_slope(trend.x, trend.values).value, 1.5) << name;
+  }
 }
 
 TEST(Truncation, is_found_in_space_too)

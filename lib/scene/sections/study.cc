@@ -92,7 +92,8 @@ namespace plumbline::scene
         "local solution, in units of the load), bound Linf, bound L2 (of meshfree rules: the "
         "largest truncation error times the inf-norm of A^-1, and the L2 norm of the truncation "
         "error divided by the smallest eigenvalue of the symmetric part of A: bounds on the nodal "
-        "error).");
+        "error), energy (sqrt(a(e, e)) of the nodal error e, with the method's own bilinear form "
+        "a; the energies of solutions are recorded with it).");
     keys.add(
         "decisive error", decisive_error.text(), any_text(),
         [this](const std::string &text) { decisive_error = to_decisive_error(text); },
