@@ -48,6 +48,9 @@ namespace plumbline::report
                 {"deviation_error", known(set.deviation_error)},
                 {"mean_uncertainty", set.mean_uncertainty},
                 {"deviation_uncertainty", set.deviation_uncertainty},
+                {"interpolation_error", known(set.interpolation_error)},
+                {"lebesgue", known(set.lebesgue)},
+                {"lebesgue_bound", known(set.lebesgue_bound)},
                 {"quantities", Json::object()}};
       for (const auto &[name, s] : set.quantities)
         json["quantities"][name] = {{"mean", known(s.mean)},

@@ -30,6 +30,21 @@ namespace plumbline::report
         "of each method. At the finest level itself they show the effect of samples and modes "
         "alone; it is therefore left out of the advice and of the charts versus h and CPU time.";
 
+    const char *const words_of_interpolant =
+        "Error of the interpolant: the maximum of ‖u(ξ) − u^Q(ξ)‖, L2, over at most 32 samples of "
+        "the last set that the set does not contain; u^Q is the polynomial through the samples of "
+        "the set (Fan et al. 2022, section 3.2). Lebesgue constant: what u^Q amplifies errors of "
+        "samples by, at most; of two numbers the first was found, and the second is a bound.";
+
+    bool has_interpolant(const SamplingResults &results)
+    {
+      for (const CaseStatistics &one : results.cases)
+        for (const SetStatistics &set : one.sets)
+          if (set.interpolation_error || set.lebesgue)
+            return true;
+      return false;
+    }
+
     const SetStatistics *best(const SamplingResults &results)
     {
       return results.cases.empty() || results.cases.back().sets.empty()
@@ -223,6 +238,7 @@ namespace plumbline::report
       data["has_results"] = !r.findings.empty() || !data["charts"].empty();
       data["own"] = is_own(r) ? words_of_own : "";
       data["fields"] = page::table(sampling_field_table(r));
+      data["interpolant"] = has_interpolant(r) ? words_of_interpolant : "";
       data["cheapest"] = page::table(sampling_cheapest_table(r));
       data["balance"] = balance(r);
       data["has_balance"] = !r.balance.empty();

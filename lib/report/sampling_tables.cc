@@ -39,6 +39,22 @@ namespace plumbline::report
       return results.sampling.modes.empty() ? empty_cell() : count_cell(n_modes);
     }
 
+    /// Found, and its bound: two CSV fields.
+    Cell lebesgue_cell(const SetStatistics &set)
+    {
+      Cell cell = empty_cell();
+      cell.csv = {"", ""};
+      if (set.lebesgue && set.lebesgue_bound)
+      {
+        constexpr double one = 1e-6; // relative: they are the same
+        cell.csv = {exact(*set.lebesgue), exact(*set.lebesgue_bound)};
+        cell.text = *set.lebesgue_bound > (1 + one) * *set.lebesgue
+                        ? rounded(*set.lebesgue) + " to " + rounded(*set.lebesgue_bound)
+                        : rounded(*set.lebesgue);
+      }
+      return cell;
+    }
+
     /// Of the mean, with 95 % confidence: two CSV fields.
     Cell interval_cell(const uq::Statistics &s)
     {
@@ -74,6 +90,8 @@ namespace plumbline::report
                      "‖deviation‖",
                      "error of the mean",
                      "error of the deviation",
+                     "error of the interpolant",
+                     Column("Lebesgue constant", {"Lebesgue constant", "its bound"}),
                      "standard error",
                      Column("‖w‖₂", {"noise"}),
                      "CPU seconds"};
@@ -90,6 +108,7 @@ namespace plumbline::report
               known(has_field, number_cell(set.mean_size)),
               set.deviation_size ? number_cell(*set.deviation_size) : empty_cell(),
               known_error(set.mean_error), known_error(set.deviation_error),
+              known_error(set.interpolation_error), lebesgue_cell(set),
               known(is_random, error_cell(set.standard_error)), number_cell(set.noise),
               number_cell(set.seconds)})
           row.push_back(cell);

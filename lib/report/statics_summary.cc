@@ -201,7 +201,7 @@ namespace plumbline::report
     print(out, heading(results.scene_name, results.purpose));
     bool has_constants = false;
     for (const auto &[what, value] : results.facts)
-      if (!study::is_of_equation(what)) // that is on the page
+      if (!study::is_of_equation(what) && what != study::assumption_1_fact) // on the page
       {
         print(out, what + ": " + value);
         has_constants = true;

@@ -16,7 +16,8 @@ namespace plumbline::scene
     /// Points in each variable, in all combinations.
     bool is_tensor(SampleRule rule)
     {
-      return rule == SampleRule::tensor || rule == SampleRule::equidistant;
+      return rule == SampleRule::tensor || rule == SampleRule::equidistant ||
+             rule == SampleRule::chebyshev;
     }
 
     double n_samples(const SamplingSection &sampling, const std::vector<uq::Law> &laws,
@@ -74,7 +75,9 @@ namespace plumbline::scene
       return;
     const std::string rule = "Sampling/rule = " + base::word(sampling.rule);
     const std::vector<uq::Law> laws = scene.random.laws();
-    const bool is_drawn = sampling.rule == SampleRule::monte_carlo;
+    const bool is_drawn = sampling.rule == SampleRule::monte_carlo,
+               is_bounded = sampling.rule == SampleRule::equidistant ||
+                            sampling.rule == SampleRule::chebyshev;
     require(!laws.empty() || (is_drawn && scene.random.is_there()),
             rule + " needs random variables; give Random/variables, or Random/"
                    "modes of a field");
@@ -95,9 +98,8 @@ namespace plumbline::scene
             "Sampling/modes must be strictly increasing, from 1 or more to Random/modes = " +
                 std::to_string(scene.random.n_modes) +
                 " at most; give Random/modes the largest of them, or clear it");
-    require(sampling.rule != SampleRule::equidistant ||
-                std::all_of(laws.begin(), laws.end(),
-                            [](uq::Law law) { return law == uq::Law::uniform; }),
+    require(!is_bounded || std::all_of(laws.begin(), laws.end(),
+                                       [](uq::Law law) { return law == uq::Law::uniform; }),
             rule +
                 " covers a bounded range, and normal variables are unbounded; make them uniform in "
                 "Random/variables (and give no Random/modes), or write tensor");

@@ -1,9 +1,12 @@
 #include "study/model_facts.h"
 
 #include "base/number_text.h"
+#include "physics/solid_bounds.h"
 #include "problem/surface_terms.h"
 #include "scene/models/model.h"
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 namespace plumbline::study
@@ -34,6 +37,49 @@ namespace plumbline::study
       if (scene.kernel.limit == scene::Limit::navier)
         return "bulk modulus = " + number(scene.kernel.bulk_modulus);
       return scene.kernel.limit == scene::Limit::none ? "c = " + number(scene.kernel.constant) : "";
+    }
+
+    /// Of λ and μ in the boxes of Ω and in the interaction domain of the largest horizon, at the
+    /// points of a grid; nothing where the material varies and Ω is no boxes.
+    std::optional<physics::LameBounds> bounds_of_constants(const scene::Scene &scene)
+    {
+      constexpr int n_points = 65; // along a side
+      const auto lame = scene.material.lame();
+      if (scene.material.is_homogeneous)
+        return physics::LameBounds{lame({}), lame({})};
+      if (!scene.domain.mesh.is_of_boxes() || !scene.domain.mesh.map.empty())
+        return {};
+      double reach = 0;
+      for (const scene::Series &series : scene.study.series)
+        for (const scene::Level &level : series.levels)
+          reach = std::max(reach, scene.reach(level.horizon));
+      std::optional<physics::LameBounds> bounds;
+      for (const geometry::Box &box : scene.domain.boxes.include)
+        for (int j = 0; j < n_points; ++j)
+          for (int i = 0; i < n_points; ++i)
+          {
+            const double s = static_cast<double>(i) / (n_points - 1),
+                         t = static_cast<double>(j) / (n_points - 1);
+            const physics::Lame here =
+                lame({(1 - s) * (box.lower[0] - reach) + s * (box.upper[0] + reach),
+                      (1 - t) * (box.lower[1] - reach) + t * (box.upper[1] + reach)});
+            if (!bounds)
+              bounds = {here, here};
+            bounds->add(here);
+          }
+      return bounds;
+    }
+
+    /// Of the theorem that the linear peridynamic solid is well posed.
+    std::string words_of_assumption(const physics::LameBounds &bounds)
+    {
+      const physics::Assumption1 one = physics::assumption_1(bounds);
+      const std::string numbers = "8 λ∞ = " + number(one.left) + (one.holds() ? " > " : " <= ") +
+                                  "(√μ∞ + (λ∞ − λ0)/√μ0)² = " + number(one.right);
+      return one.holds() ? "holds, so that the problem is well posed: " + numbers
+                         : "does not hold, so that theorem 1 proves nothing (it is sufficient, not "
+                           "necessary): " +
+                               numbers;
     }
 
     std::string constraint(const scene::DomainSection &domain)
@@ -80,6 +126,10 @@ namespace plumbline::study
                                        ? "λ and μ are harmonic means over the two ends of a bond"
                                        : "μ is the arithmetic mean over the two ends of a bond; f "
                                          "is evaluated at the same point as θ";
+    if (model.is_state_based() && model.mean() == physics::Mean::harmonic &&
+        scene.domain.dimension == 2 && !scene.domain.is_free_body && !scene.domain.is_damaged())
+      if (const auto bounds = bounds_of_constants(scene))
+        facts[assumption_1_fact] = words_of_assumption(*bounds);
     if (scene.material.boundary_function == scene::BoundaryFunction::smoothstep)
       facts["boundary function"] = "t²(3 − 2t) with t = min(1, (distance to the boundary)/δ)";
     if (scene.domain.is_damaged())

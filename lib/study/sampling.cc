@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "study/cheapest_pair.h"
 #include "study/exact_statistics.h"
+#include "study/interpolation_error.h"
 #include "study/sampling_balance.h"
 #include "study/sampling_findings.h"
 
@@ -39,6 +40,7 @@ namespace plumbline::study
     {
       SampleCase first;
       std::vector<SetSums> sets;
+      InterpolationError::Sums interpolation;
       // of the last set, see CaseStatistics
       std::vector<std::size_t> samples = {};
       std::map<std::string, std::vector<std::optional<double>>> values = {};
@@ -69,7 +71,8 @@ namespace plumbline::study
 
     /// @param sample  whose record it is
     void add(std::size_t sample, const SampleRecord &record,
-             const std::vector<std::optional<double>> &weights, std::vector<CaseSums> &cases)
+             const std::vector<std::optional<double>> &weights,
+             const InterpolationError &interpolation, std::vector<CaseSums> &cases)
     {
       for (const SampleCase &one : record.cases)
       {
@@ -77,9 +80,12 @@ namespace plumbline::study
                                   [&](const CaseSums &c) { return c.first.is_same(one); });
         if (found == cases.end())
         {
-          cases.push_back({one, std::vector<SetSums>(weights.size())});
+          cases.push_back(
+              {one, std::vector<SetSums>(weights.size()), InterpolationError::Sums(interpolation)});
           found = cases.end() - 1;
         }
+        if (!one.field.values.empty())
+          found->interpolation.add(sample, one.field.values);
         for (std::size_t s = 0; s < weights.size(); ++s)
         {
           if (!weights[s])
@@ -185,6 +191,7 @@ namespace plumbline::study
 
     CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
                                  const CaseSums &sums, const CaseSums &finest,
+                                 const InterpolationError &interpolation,
                                  std::vector<std::string> &findings)
     {
       const bool is_finest = &sums == &finest,
@@ -221,6 +228,12 @@ namespace plumbline::study
         FieldStatistics field;
         const bool is_best = is_finest && s + 1 == plan.sets.size();
         set.is_target = is_best && is_own;
+        set.interpolation_error = sums.interpolation.largest(s, places);
+        if (const auto found = interpolation.lebesgue(s))
+        {
+          set.lebesgue = found->found;
+          set.lebesgue_bound = found->bound;
+        }
         if (is_known)
           conclude_field(sums.sets[s], places, plan.are_independent,
                          set.is_target ? std::nullopt : exact, set, field.mean, field.deviation);
@@ -284,6 +297,7 @@ namespace plumbline::study
         std::count_if(scene.expected.all.begin(), scene.expected.all.end(),
                       [](const auto &one) { return one.kind == scene::ExpectedKind::sampling; }));
     const auto weights = weights_of(plan);
+    const InterpolationError interpolation(scene, plan);
     std::vector<CaseSums> cases;
     std::size_t n_read = 0;
     for (std::size_t i = 0; i < plan.values.size(); ++i)
@@ -294,7 +308,7 @@ namespace plumbline::study
       ++n_read;
       if (!record->failure.empty())
         results.failures.push_back({i, plan.values[i], record->failure});
-      add(i, *record, weights[i], cases);
+      add(i, *record, weights[i], interpolation, cases);
     }
     results.is_complete = n_read == plan.values.size();
     for (const CaseSums &one : cases)
@@ -303,7 +317,8 @@ namespace plumbline::study
       for (const CaseSums &other : cases)
         if (other.first.is_same_method(one.first) && other.first.level > finest->first.level)
           finest = &other;
-      results.cases.push_back(conclude_case(scene, plan, one, *finest, results.findings));
+      results.cases.push_back(
+          conclude_case(scene, plan, one, *finest, interpolation, results.findings));
     }
     if (!scene.sampling.is_axis()) // else means are over an interval, and nobody asks for them
     {
@@ -326,6 +341,10 @@ namespace plumbline::study
     if (one.sets.empty())
       return {};
     const SetStatistics &set = one.sets.back();
+    std::optional<double> of_interpolant; // of the last set that another one is held against
+    for (const SetStatistics &other : one.sets)
+      if (other.interpolation_error)
+        of_interpolant = other.interpolation_error;
     std::map<std::string, std::optional<double>> known = {
         {"error of the mean", set.mean_error},
         {"error of the deviation", set.deviation_error},
@@ -333,6 +352,8 @@ namespace plumbline::study
         {"size of the deviation", set.deviation_size},
         {"sum of sizes", set.sum_of_sizes},
         {"noise", set.noise},
+        {"error of the interpolant", of_interpolant},
+        {"Lebesgue constant", set.lebesgue},
         {"samples", static_cast<double>(set.n_samples)}};
     for (const auto &[quantity, statistics] : set.quantities)
     {

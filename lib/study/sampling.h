@@ -85,6 +85,9 @@ namespace plumbline::study
     /// is negative, of this set or of the one that it is held against.
     std::optional<double> mean_error, deviation_error;
     bool is_target = false; ///< this is that set, which has no errors
+    // of the set's interpolant u^Q, see interpolation_error.h
+    std::optional<double> interpolation_error;
+    std::optional<double> lebesgue, lebesgue_bound;         ///< found, and what it does not exceed
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
   };
 

@@ -16,6 +16,8 @@ namespace plumbline::study
         return uq::tensor_points(laws, count);
       case SampleRule::smolyak:
         return uq::smolyak_points(laws, count, sampling.growth);
+      case SampleRule::chebyshev:
+        return uq::chebyshev_points(laws.size(), count);
       case SampleRule::equidistant:
         return uq::equidistant_points(laws.size(), count);
       case SampleRule::quasi_monte_carlo:

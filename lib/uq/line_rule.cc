@@ -156,6 +156,22 @@ namespace plumbline::uq
     return rule;
   }
 
+  LineRule fejer_rule(unsigned int n)
+  {
+    LineRule rule;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double angle = M_PI * (i + .5) / n;
+      double sum = 1; // of the means of T_0, T_2, ... times 2 T_k at the node
+      for (unsigned int k = 2; k < n; k += 2)
+        sum += 2 * std::cos(k * angle) / (1. - static_cast<double>(k) * k);
+      rule.nodes.push_back(-std::cos(angle));
+      rule.weights.push_back(sum / n);
+    }
+    symmetrise(rule);
+    return rule;
+  }
+
   LineRule genz_keister_rule(unsigned int level)
   {
     std::vector<Real> nodes = {0};

@@ -26,6 +26,13 @@ namespace plumbline::uq
   /// @pre n odd
   LineRule clenshaw_curtis_rule(unsigned int n);
 
+  /// Fejér's first rule of n points on [-1, 1] for the uniform law: the roots of Chebyshev's
+  /// polynomial T_n, exact for degree n - 1. All weights are positive. The Lebesgue constant of
+  /// these points is at most 2/π log(n + 1) + 1.
+  /// Source: Waldvogel 2006, doi:10.1007/s10543-006-0045-4, section 2.
+  /// @pre n > 0
+  LineRule fejer_rule(unsigned int n);
+
   constexpr unsigned int n_genz_keister_rules = 5;
 
   /// Genz and Keister's rules of 1, 3, 9, 19 and 35 points for the normal law, exact for degree 1,

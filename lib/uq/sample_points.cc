@@ -1,6 +1,7 @@
 #include "uq/sample_points.h"
 
 #include "uq/generator.h"
+#include "uq/smolyak_terms.h"
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/sobol.hpp>
@@ -18,14 +19,6 @@ namespace plumbline::uq
   {
     /// More than this are counted as this many.
     constexpr double endless = 1e300;
-
-    LineRule line_rule(Law law, Growth growth, unsigned int level)
-    {
-      if (growth == Growth::nested && law == Law::normal)
-        return genz_keister_rule(level);
-      const auto n = static_cast<unsigned int>(n_line_points(law, growth, level));
-      return growth == Growth::nested ? clenshaw_curtis_rule(n) : gauss_rule(law, n);
-    }
 
     double binomial(std::size_t n, std::size_t k)
     {
@@ -121,6 +114,26 @@ namespace plumbline::uq
     }
   } // namespace
 
+  LineRule line_rule(Law law, Growth growth, unsigned int level)
+  {
+    if (growth == Growth::nested && law == Law::normal)
+      return genz_keister_rule(level);
+    const auto n = static_cast<unsigned int>(n_line_points(law, growth, level));
+    return growth == Growth::nested ? clenshaw_curtis_rule(n) : gauss_rule(law, n);
+  }
+
+  void
+  for_each_smolyak_term(std::size_t n_variables, unsigned int level,
+                        const std::function<void(double, const std::vector<unsigned int> &)> &f)
+  {
+    for (unsigned int below = 0; below <= std::min<std::size_t>(level, n_variables - 1); ++below)
+    {
+      const double factor = (below % 2 == 0 ? 1 : -1) * binomial(n_variables - 1, below);
+      for_each_partition(n_variables, level - below,
+                         [&](const std::vector<unsigned int> &excess) { f(factor, excess); });
+    }
+  }
+
   double SamplePoints::sum_of_sizes() const
   {
     double sum = 0;
@@ -197,6 +210,11 @@ namespace plumbline::uq
     return combinations(rules);
   }
 
+  SamplePoints chebyshev_points(std::size_t n_variables, unsigned int n)
+  {
+    return combinations(std::vector<LineRule>(n_variables, fejer_rule(n)));
+  }
+
   SamplePoints equidistant_points(std::size_t n_variables, unsigned int n)
   {
     LineRule rule{{0}, {1}};
@@ -228,24 +246,21 @@ namespace plumbline::uq
       double weight = 0, size = 0;
     };
     std::map<std::vector<double>, Sum> sums;
-    for (unsigned int below = 0; below <= std::min<std::size_t>(level, n - 1); ++below)
-    {
-      const double factor = (below % 2 == 0 ? 1 : -1) * binomial(n - 1, below);
-      for_each_partition(n, level - below,
-                         [&](const std::vector<unsigned int> &excess)
-                         {
-                           std::vector<const LineRule *> chosen;
-                           for (std::size_t d = 0; d < n; ++d)
-                             chosen.push_back(rule_of(laws[d], excess[d]));
-                           for_each_combination(chosen,
-                                                [&](const std::vector<double> &point, double weight)
-                                                {
-                                                  Sum &sum = sums[point];
-                                                  sum.weight += factor * weight;
-                                                  sum.size += std::abs(factor * weight);
-                                                });
-                         });
-    }
+    for_each_smolyak_term(n, level,
+                          [&](double factor, const std::vector<unsigned int> &excess)
+                          {
+                            std::vector<const LineRule *> chosen;
+                            for (std::size_t d = 0; d < n; ++d)
+                              chosen.push_back(rule_of(laws[d], excess[d]));
+                            for_each_combination(
+                                chosen,
+                                [&](const std::vector<double> &point, double weight)
+                                {
+                                  Sum &sum = sums[point];
+                                  sum.weight += factor * weight;
+                                  sum.size += std::abs(factor * weight);
+                                });
+                          });
     constexpr double nothing = 1e-14; // rounding of weights that cancel
     SamplePoints result;
     for (const auto &[point, sum] : sums)

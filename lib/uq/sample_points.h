@@ -12,7 +12,8 @@ namespace plumbline::uq
     smolyak,
     monte_carlo,
     quasi_monte_carlo, ///< Sobol's points
-    equidistant        ///< from end to end of uniform variables, to see how results depend on them
+    equidistant,       ///< from end to end of uniform variables, to see how results depend on them
+    chebyshev          ///< tensor products of Chebyshev points of uniform variables
   };
 
   /// How many points a variable has at level l = 1, 2, ... of Smolyak's rule.
@@ -55,6 +56,10 @@ namespace plumbline::uq
   /// @pre n <= most_line_points
   SamplePoints tensor_points(const std::vector<Law> &laws, unsigned int n);
 
+  /// All combinations of n Chebyshev points each of uniform variables, see fejer_rule.
+  /// @pre 0 < n <= most_line_points
+  SamplePoints chebyshev_points(std::size_t n_variables, unsigned int n);
+
   /// All combinations of n equidistant values each of uniform variables, both ends among them, with
   /// the weights of the trapezoidal rule; the middle where n = 1.
   /// @pre 0 < n <= most_line_points
@@ -81,8 +86,8 @@ namespace plumbline::uq
 namespace plumbline::base
 {
   template <>
-  inline constexpr auto words<uq::SampleRule> =
-      std::array{"none", "tensor", "Smolyak", "Monte Carlo", "quasi-Monte Carlo", "equidistant"};
+  inline constexpr auto words<uq::SampleRule> = std::array{
+      "none", "tensor", "Smolyak", "Monte Carlo", "quasi-Monte Carlo", "equidistant", "Chebyshev"};
   template <>
   inline constexpr auto words<uq::Growth> = std::array{"linear", "odd", "doubling", "nested"};
 } // namespace plumbline::base

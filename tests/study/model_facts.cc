@@ -49,3 +49,26 @@ TEST(ModelFacts, name_what_is_fixed_of_a_body_and_the_potential_of_double_wells)
   EXPECT_EQ(wells.at("constraint"), "on a torus");
   EXPECT_EQ(wells.at("constants"), "c = 1, beta = 1");
 }
+
+// Fan et al. 2022, assumption 1: of constants 8 λ > μ, and a jump of λ that is not too large.
+TEST(ModelFacts, say_whether_the_solid_is_proven_to_be_well_posed)
+{
+  const std::string &key = assumption_1_fact;
+  EXPECT_EQ(facts_of("LPS").at(key).find("holds"), 0u);
+  EXPECT_EQ(facts_of("LPS", {{"Material/nu", "0.05"}}).at(key).find("does not hold"), 0u);
+  // λ from 1 to 2, μ = λ: 8·2 against (√2 + 1)²; from 1 to 9: 72 against (3 + 8)²
+  const Facts varying = facts_of("LPS", {{"Domain/mesh", "squares"},
+                                         {"Material/E", ""},
+                                         {"Material/nu", ""},
+                                         {"Material/lambda", "x < 0.5 ? 1 : 2"},
+                                         {"Material/mu", "x < 0.5 ? 1 : 2"}}),
+              large = facts_of("LPS", {{"Domain/mesh", "squares"},
+                                       {"Material/E", ""},
+                                       {"Material/nu", ""},
+                                       {"Material/lambda", "x < 0.5 ? 1 : 9"},
+                                       {"Material/mu", "x < 0.5 ? 1 : 9"}});
+  EXPECT_NE(varying.at(key).find("8 λ∞ = 16 > (√μ∞ + (λ∞ − λ0)/√μ0)² = 5.82843"),
+            std::string::npos);
+  EXPECT_NE(large.at(key).find("8 λ∞ = 72 <= (√μ∞ + (λ∞ − λ0)/√μ0)² = 121"), std::string::npos);
+  EXPECT_EQ(facts_of("variational").count(key), 0u);
+}

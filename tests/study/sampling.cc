@@ -343,3 +343,68 @@ TEST(SampleStatistics, ThatAreNotThereLeaveResultsIncomplete)
   EXPECT_FALSE(results.is_complete);
   EXPECT_TRUE(results.failures.empty());
 }
+
+// u = e^c x at Gauss points of c in [-1, 1]: the interpolant of two of them against Newton's form
+// at the points of the largest set.
+TEST(SampleStatistics, HaveTheErrorOfTheInterpolant)
+{
+  for (const std::string rule : {"tensor", "Chebyshev"})
+  {
+    const scene::Scene scene = random_scene({{"Random/variables", "c: uniform -1 1"},
+                                             {"Sampling/rule", rule},
+                                             {"Sampling/counts", "2, 4, 9"},
+                                             {"Problem/solution", "exp(c)*x"}});
+    const SamplingPlan plan = make_sampling_plan(scene);
+    const auto record = [&](std::size_t i)
+    {
+      SampleRecord made = exact_record(plan, i, first);
+      for (std::size_t p = 0; p < made.cases[0].field.x.size(); ++p)
+        made.cases[0].field.values[p] = std::exp(plan.values[i][0]) * made.cases[0].field.x[p];
+      return made;
+    };
+    const auto &sets = study::conclude_samples(scene, plan, record).cases.at(0).sets;
+    const auto c = [&](std::size_t set, std::size_t k)
+    { return plan.values[plan.sets[set].samples[k]][0]; };
+    double largest = 0;
+    for (std::size_t k = 0; k < 9; ++k)
+    {
+      const double at = c(2, k), a = c(0, 0), b = c(0, 1),
+                   slope = (std::exp(b) - std::exp(a)) / (b - a);
+      largest = std::max(largest, std::abs(std::exp(at) - std::exp(a) - slope * (at - a)));
+    }
+    const double size = std::sqrt(.25 * (.01 + .16 + .36 + .81));
+    ASSERT_TRUE(sets[0].interpolation_error && sets[1].interpolation_error) << rule;
+    EXPECT_NEAR(*sets[0].interpolation_error, largest * size, 1e-13) << rule;
+    EXPECT_LT(*sets[1].interpolation_error, .02 * *sets[0].interpolation_error) << rule;
+    EXPECT_FALSE(sets[2].interpolation_error) << "nothing finer is known";
+    // two points: at the ends 1/|node|
+    EXPECT_NEAR(*sets[0].lebesgue, rule == "tensor" ? std::sqrt(3.) : std::sqrt(2.), 1e-8);
+    EXPECT_EQ(sets[0].lebesgue, sets[0].lebesgue_bound);
+    EXPECT_EQ(
+        study::sampled_quantity({{}, true, false, {sets[0]}, {}, {}, {}}, "Lebesgue constant"),
+        sets[0].lebesgue);
+    // one sample that is missing takes from each set that needs it what it says
+    const auto without_first =
+        study::conclude_samples(scene, plan,
+                                [&](std::size_t i) {
+                                  return i == 0 ? SampleRecord{0, "failed", {}} : record(i);
+                                });
+    EXPECT_FALSE(without_first.cases.at(0).sets[0].interpolation_error);
+  }
+  const auto normal = random_scene({{"Sampling/counts", "1, 2, 3"}});
+  const auto &sets = conclude(normal, make_sampling_plan(normal), first).cases.at(0).sets;
+  EXPECT_FALSE(sets[0].lebesgue || sets[0].interpolation_error) << "a variable is unbounded";
+}
+
+TEST(SampleStatistics, ChebyshevsPointsAreOfUniformVariables)
+{
+  try
+  {
+    (void)random_scene({{"Sampling/rule", "Chebyshev"}});
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("normal variables are unbounded"), std::string::npos);
+  }
+}

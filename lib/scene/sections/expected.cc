@@ -152,8 +152,9 @@ namespace plumbline::scene
         "'method: VERDICT' of 'plumbline stability': stable, conditionally stable or unstable.");
     add(ExpectedKind::sampling,
         "'method, quantity: value' of 'plumbline sample', from the largest set of samples at the "
-        "finest level, to Expected/error tolerance; quantities as named in its table, or variance "
-        "kept, the fraction of a field's variance in its modes.");
+        "finest level, to Expected/error tolerance; quantities as named in its table (the error of "
+        "the interpolant: of the last set that has one), or variance kept, the fraction of a "
+        "field's variance in its modes.");
     add(ExpectedKind::strip,
         "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
         "Expected/error tolerance. Quantities: W1, tip energy, opening, G (relative to the local "

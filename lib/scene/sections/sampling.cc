@@ -30,14 +30,17 @@ namespace plumbline::scene
         "Sampling rule of 'plumbline sample'. tensor: tensor products of Gauss rules (Hermite, "
         "Legendre). Smolyak: sparse grids, with some negative weights. Monte Carlo: independent "
         "samples. quasi-Monte Carlo: Sobol points. equidistant: equidistant points over the range "
-        "of uniform variables; with one variable, charts show the results as functions of it.");
+        "of uniform variables; with one variable, charts show the results as functions of it. "
+        "Chebyshev: tensor products of Chebyshev points (roots of T_n) of uniform variables, for "
+        "interpolation.");
     keys.add("analysis", analysis,
              "Analysis of each sample. scene: the analysis that the scene defines: statics, "
              "transient (Time), dynamic fracture (Crack), quasi-static fracture (Fracture) or "
              "stationary crack (Strip). stability, dispersion: the analyses of these commands.");
     keys.add(
         "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
-        "Size of each set of samples, increasing: points per variable (tensor, equidistant), "
+        "Size of each set of samples, increasing: points per variable (tensor, Chebyshev, "
+        "equidistant), "
         "levels 0, 1, ... (Smolyak), or number of samples.");
     keys.add(
         "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
