@@ -188,6 +188,10 @@ namespace plumbline::reference
         std::vector<unsigned int> near, columns;
         std::vector<double> sums; ///< of all unknowns, 0 between calls
         ExactPairs::Shared shared;
+        std::vector<double> integrals;            ///< of a face and those near it
+        std::vector<const NumberedFace *> others; ///< of them, those that are not known
+        std::vector<std::size_t> places;          ///< of those there
+        std::vector<ExactPairs::Integral> exact;  ///< their integrals
         FaceRuleUse use;
       };
 
@@ -262,29 +266,45 @@ namespace plumbline::reference
         return f.centre().distance_square(g.centre()) < reach * reach;
       }
 
-      double integral(std::size_t face, unsigned int other, Workspace &work) const
+      /// Of a face and those near it.
+      void find_integrals(std::size_t face, const std::vector<unsigned int> &near,
+                          Workspace &work) const
       {
-        const NumberedFace &f = faces_.numbered(face), &g = faces_.numbered(other);
+        const NumberedFace &f = faces_.numbered(face);
+        work.integrals.assign(near.size(), 0);
         if (!exact_)
-          return (*by_rule_)(*f.face, *g.face);
-        if (spacing_ > 0)
-          return repeated(f, g, work);
-        return exactly(f, g, work);
+          for (std::size_t k = 0; k < near.size(); ++k)
+            work.integrals[k] = (*by_rule_)(*f.face, *faces_.numbered(near[k]).face);
+        work.others.clear();
+        work.places.clear();
+        for (std::size_t k = 0; exact_ && k < near.size(); ++k)
+          if (const NumberedFace &g = faces_.numbered(near[k]);
+              spacing_ == 0 || !find_repeated(f, g, work, work.integrals[k]))
+          {
+            work.others.push_back(&g);
+            work.places.push_back(k);
+          }
+        if (work.others.empty())
+          return;
+        (*exact_)(f, work.others, work.shared, work.exact);
+        for (std::size_t k = 0; k < work.others.size(); ++k)
+          work.integrals[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
       }
 
       using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
 
-      double exactly(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
+      double noted(const NumberedFace &f, const NumberedFace &g,
+                   const ExactPairs::Integral &integral, Workspace &work) const
       {
-        const ExactPairs::Integral integral = (*exact_)(f, g, work.shared);
         ++work.use.n_pairs[integral.level];
         work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
                                                       largest_jump_[g.number]);
         return integral.value;
       }
 
-      /// The same on a lattice.
-      double repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work) const
+      /// @return  whether both are faces of a lattice
+      bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
+                         double &value) const
       {
         const auto &x = f.face->vertices(), &y = g.face->vertices();
         constexpr double off = 1e-12; // rounding of coordinates
@@ -305,12 +325,13 @@ namespace plumbline::reference
             places[9 + 3 * d + k] = place(y[k]);
           }
           if (!is_of_lattice)
-            return exactly(f, g, work);
+            return false;
         }
         const ExactPairs::Integral integral = known(places, work);
         work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
                                                       largest_jump_[g.number]);
-        return integral.value;
+        value = integral.value;
+        return true;
       }
 
       /// By the places alone, so that all threads have the same.
@@ -346,9 +367,11 @@ namespace plumbline::reference
       {
         work.sums.resize(space_.n_dofs());
         work.columns.clear();
-        for (const unsigned int other : near)
+        find_integrals(face, near, work);
+        for (std::size_t k = 0; k < near.size(); ++k)
         {
-          const double value = integral(face, other, work) * (other == face ? .5 : 1);
+          const unsigned int other = near[k];
+          const double value = work.integrals[k] * (other == face ? .5 : 1);
           if (value == 0)
             continue;
           const SpaceFace &g = faces()[other];

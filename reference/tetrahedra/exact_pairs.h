@@ -55,6 +55,10 @@ namespace plumbline::reference
     /// @param f, g  of those that `shared` was started with; it forgets some values as f changes
     Integral operator()(const NumberedFace &f, const NumberedFace &g, Shared &shared) const;
 
+    /// result[k] is that of f and others[k]: faster, since many are integrated at a time.
+    void operator()(const NumberedFace &f, const std::vector<const NumberedFace *> &others,
+                    Shared &shared, std::vector<Integral> &result) const;
+
     /// Without shared values.
     Integral operator()(const PairFace &f, const PairFace &g) const;
 
@@ -62,8 +66,17 @@ namespace plumbline::reference
     double precise(const PairFace &f, const PairFace &g) const;
 
   private:
+    class Batch;
+
+    /// With more digits than double has.
+    template <class Real>
+    class Mixed;
+
+    Integral refined(const NumberedFace &f, const NumberedFace &g, bool is_compact,
+                     Shared &shared) const;
     /// With more digits than long double has.
-    Integral precise_enough(const PairFace &f, const PairFace &g) const;
+    template <class Face, class Values>
+    Integral precise_enough(const Face &f, const Face &g, bool is_compact, Values &values) const;
 
     struct Parts;
     std::unique_ptr<const Parts> parts_;

@@ -134,6 +134,10 @@ namespace plumbline::reference
         add_parallel_planes(f, g);
         return sum_;
       }
+      // rises are differences of heights, which have the round-off of the distance; measured
+      constexpr double share = 1e-3;
+      const Real distance = (f.x[0] - g.x[0]).norm();
+      growth_ = 1 + share * distance / std::min(f.least_rise(), g.least_rise());
       const bool has_parallel = has_parallel_edge(f, g) || has_parallel_edge(g, f);
       is_compact_ = is_compact_ && !has_parallel;
       add_edge_pairs(f, g, sine);
@@ -144,10 +148,7 @@ namespace plumbline::reference
         add_parallel_edges(f, g, axis, Real(1 / sine), false);
         add_parallel_edges(g, f, axis, Real(-1 / sine), true);
       }
-      // rises are differences of heights, which have the round-off of the distance; measured
-      constexpr double share = 1e-3;
-      const Real distance = (f.x[0] - g.x[0]).norm();
-      sum_.size *= 1 + share * distance / std::min(f.least_rise(), g.least_rise());
+      sum_.size *= growth_;
       constexpr double least_sine = 1e-3, no_bound = 1e30, certain = 1e-30;
       if (has_parallel && sine < least_sine && rounding > certain)
         sum_.size *= no_bound; // what is taken for parallel ought to be so to more digits
@@ -185,7 +186,9 @@ namespace plumbline::reference
       Real area = 0;
     };
 
-    Sum<Real> edge_pair(const Face &f, unsigned int i, const Face &g, unsigned int j) const
+    /// @param factor  what it is multiplied by, which tells a cache how exact it has to be
+    Sum<Real> edge_pair(const Face &f, unsigned int i, const Face &g, unsigned int j,
+                        const Real &factor) const
     {
       const auto make = [&]
       {
@@ -194,7 +197,7 @@ namespace plumbline::reference
         result.add(1 / p.area, integrate({p.corners.data(), 4, p.normal}));
         return result;
       };
-      return cache_.edges(f.edges[i], g.edges[j], is_compact_, make);
+      return cache_.edges(f.edges[i], g.edges[j], is_compact_, factor * growth_, make);
     }
 
     static PlaneIntegral<Real> plane_from(const Point &v, const Face &g)
@@ -203,11 +206,13 @@ namespace plumbline::reference
       return {corners.data(), 3, g.normal};
     }
 
-    Sum<Real> vertex_and_face(const Face &f, unsigned int k, const Face &g, bool is_second) const
+    Sum<Real> vertex_and_face(const Face &f, unsigned int k, const Face &g, bool is_second,
+                              const Real &factor) const
     {
       const auto make = [&] { return integrate(plane_from(f.x[k], g)); };
-      return is_second ? cache_.second_vertex(f.names[k], is_compact_, make)
-                       : cache_.first_vertex(f.names[k], g.number, is_compact_, make);
+      return is_second
+                 ? cache_.second_vertex(f.names[k], is_compact_, factor * growth_, make)
+                 : cache_.first_vertex(f.names[k], g.number, is_compact_, factor * growth_, make);
     }
 
     void add_edge_pairs(const Face &f, const Face &g, const Real &sine)
@@ -218,7 +223,8 @@ namespace plumbline::reference
           if (f.is_parallel[i] || g.is_parallel[j])
             continue;
           const Real gap = (f.beta[i] - g.beta[j]) / sine;
-          sum_.add(f.rise[i] * g.rise[j] * gap * gap, edge_pair(f, i, g, j));
+          const Real factor = f.rise[i] * g.rise[j] * gap * gap;
+          sum_.add(factor, edge_pair(f, i, g, j, factor));
         }
     }
 
@@ -230,7 +236,8 @@ namespace plumbline::reference
         const Real gap = f.beta[in] - f.beta[k]; // β of parallel edges is 0
         if (f.height[k] == 0 || gap == 0)
           continue;
-        sum_.add(factor * f.height[k] * gap, vertex_and_face(f, k, g, is_second));
+        const Real whole = factor * f.height[k] * gap;
+        sum_.add(whole, vertex_and_face(f, k, g, is_second, whole));
       }
     }
 
@@ -258,8 +265,8 @@ namespace plumbline::reference
             continue;
           // d(O, e') |e'| is ± β' A'/s, and d(X', e) is d(O, e)
           const Real other = factor * g.beta[j] * g.rise[j];
-          sum_.add(other * distance * f.length[i],
-                   is_second ? edge_pair(g, j, f, i) : edge_pair(f, i, g, j));
+          const Real whole = other * distance * f.length[i];
+          sum_.add(whole, is_second ? edge_pair(g, j, f, i, whole) : edge_pair(f, i, g, j, whole));
         }
       }
     }
@@ -378,9 +385,13 @@ namespace plumbline::reference
     void add_planes(const Face &f, const Face &g, const Function &function)
     {
       const Point centre = (f.x[0] + f.x[1] + f.x[2]) * (Real(1) / 3), foot = g.project(centre);
+      const bool is_same_face = f.names == g.names;
       for (unsigned int i = 0; i < 3; ++i)
       {
-        sum_.add(f.distance(i, centre) * f.length[i], edge_and_face(f, i, g, function));
+        sum_.add(f.distance(i, centre) * f.length[i] * (is_same_face ? 2 : 1),
+                 edge_and_face(f, i, g, function));
+        if (is_same_face)
+          continue;
         sum_.add(g.distance(i, foot) * g.length[i], edge_and_face(g, i, f, function));
       }
     }
@@ -391,5 +402,6 @@ namespace plumbline::reference
     bool is_compact_;
     Cache &cache_;
     Sum<Real> sum_;
+    Real growth_ = 1; ///< of its size
   };
 } // namespace plumbline::reference

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "reference/tetrahedra/pair_lanes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +50,11 @@ namespace plumbline::reference
     void add_compact(const Real *squares, const Real &offset, Real *values, unsigned int n) const;
     /// g, regular.
     Real density(const Real &r) const;
+
+    /// H, compact, in double.
+    PieceForm compact_form() const;
+    /// H, regular, in double, of a function of this part alone.
+    PieceForm regular_form(bool is_inside) const;
 
   private:
     Real end_;
@@ -157,6 +164,33 @@ namespace plumbline::reference
       const Real x = std::max(Real(0), Real(end_ - r[q])), x2 = x * x;
       values[q] -= sum[q] * (x2 * x2 * x) * (order_ == 3 ? x2 : Real(1)) / (squares[q] + offset);
     }
+  }
+
+  template <class Real>
+  PieceForm PotentialPart<Real>::compact_form() const
+  {
+    PieceForm form;
+    form.kind = PieceForm::Kind::compact;
+    form.end = static_cast<double>(end_);
+    form.power = order_ + 4;
+    for (const Real &coefficient : compact_)
+      form.c[form.n++] = static_cast<double>(coefficient);
+    return form;
+  }
+
+  template <class Real>
+  PieceForm PotentialPart<Real>::regular_form(bool is_inside) const
+  {
+    PieceForm form;
+    form.kind = is_inside ? PieceForm::Kind::inside : PieceForm::Kind::outside;
+    if (is_inside)
+      for (const Real &coefficient : regular_)
+        form.c[form.n++] = static_cast<double>(coefficient);
+    else
+      for (const Real &coefficient :
+           {Real(moments_[2] / 2), Real(-moments_[1]), Real(moments_[0] / 2)})
+        form.c[form.n++] = static_cast<double>(coefficient);
+    return form;
   }
 
   template <class Real>

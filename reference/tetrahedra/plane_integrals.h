@@ -2,6 +2,8 @@
 
 #include "reference/tetrahedra/plane_functions.h"
 
+#include <boost/container/small_vector.hpp>
+
 #include <array>
 #include <limits>
 
@@ -53,6 +55,7 @@ namespace plumbline::reference
   {
   public:
     static constexpr unsigned int most_points = 64;
+    static constexpr std::size_t n_rules = 14;
 
     struct Rule
     {
@@ -70,12 +73,18 @@ namespace plumbline::reference
     /// lengths, is a; with a zero of order 7 near by, which makes values small.
     const Rule &for_ellipse(const Real &a) const
     {
-      const double axis = static_cast<double>(a);
-      std::size_t k = 0;
-      while (k + 1 < sizes.size() && axis < least_axis_[k])
-        ++k;
-      return rules_[k];
+      return rules_[number_for_ellipse(static_cast<double>(a))];
     }
+
+    std::size_t number_for_ellipse(double axis) const
+    {
+      std::size_t k = 0;
+      while (k + 1 < n_rules && axis < least_axis_[k])
+        ++k;
+      return k;
+    }
+
+    const Rule &rule(std::size_t number) const { return rules_[number]; }
 
     /// Pieces with a smaller half axis are cut.
     double least_axis() const { return std::max(1.44, least_axis_.back()); }
@@ -83,8 +92,8 @@ namespace plumbline::reference
     static Real epsilon() { return std::numeric_limits<Real>::epsilon(); }
 
   private:
-    static constexpr std::array<unsigned int, 14> sizes = {6,  7,  8,  10, 12, 14, 16,
-                                                           18, 20, 24, 30, 38, 48, 64};
+    static constexpr std::array<unsigned int, n_rules> sizes = {6,  7,  8,  10, 12, 14, 16,
+                                                                18, 20, 24, 30, 38, 48, 64};
 
     GaussRules()
     {
@@ -383,6 +392,11 @@ namespace plumbline::reference
       }
     }
 
+    PlaneIntegral(const std::array<PlaneSide<Real>, 4> &sides, unsigned int n, const Real &distance)
+        : n_(n), distance_(distance), sides_(sides)
+    {
+    }
+
     const Real &distance() const { return distance_; }
 
     /// With a function that is regular at 0.
@@ -403,6 +417,14 @@ namespace plumbline::reference
       for (const PotentialPart<Real> &part : parts)
         if (distance_ < part.end())
           add_compact(part, sum);
+      return sum;
+    }
+
+    Sum<Real> compact(const PotentialPart<Real> &part) const
+    {
+      Sum<Real> sum;
+      if (distance_ < part.end())
+        add_compact(part, sum);
       return sum;
     }
 
@@ -482,7 +504,7 @@ namespace plumbline::reference
       Real foot = 0;
       const Real square_of_foot = distance_ * distance_;
       part.add_compact(&square_of_foot, Real(0), &foot, distance_ > 0 ? 1 : 0);
-      Compact state{part, foot};
+      Compact state{part, foot, 0, false, {}};
       bool is_inside = true;
       for (unsigned int k = 0; k < n_; ++k)
       {
@@ -514,17 +536,32 @@ namespace plumbline::reference
     {
       const PotentialPart<Real> &part;
       Real foot = 0, kappa = 0;
-      Real left = 0; ///< the angle of pieces from which H(d) is not subtracted
       bool is_subtracted = false;
+      /// Pieces from which H(d) is not subtracted.
+      boost::container::small_vector<PlaneSide<Real>, 16> left;
 
       void leave(const Real &from, const Real &to)
       {
-        using std::abs;
-        using std::atan2;
         if (!(from < to))
           return;
-        const Real angle = atan2(to, abs(kappa)) - atan2(from, abs(kappa));
-        left += kappa < 0 ? Real(-angle) : angle;
+        if (!left.empty() && left.back().kappa == kappa && left.back().to == from)
+          left.back().to = to;
+        else
+          left.push_back({kappa, from, to});
+      }
+
+      Real angle() const
+      {
+        using std::abs;
+        using std::atan2;
+        Real sum = 0;
+        for (const PlaneSide<Real> &piece : left)
+        {
+          const Real size = abs(piece.kappa);
+          const Real angle = atan2(piece.to, size) - atan2(piece.from, size);
+          sum += piece.kappa < 0 ? Real(-angle) : angle;
+        }
+        return sum;
       }
     };
 
@@ -580,7 +617,7 @@ namespace plumbline::reference
       using std::atan2;
       static const Real turn = 8 * atan2(Real(1), Real(1));
       if (state.is_subtracted)
-        sum.add(-state.foot * state.left);
+        sum.add(-state.foot * state.angle());
       else if (is_inside)
         sum.add(-state.foot * turn);
     }
