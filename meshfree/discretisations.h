@@ -5,6 +5,7 @@
 #include "meshfree/scattered/operator.h"
 #include "meshfree/surface/corrections.h"
 #include "method/box_discretisation.h"
+#include "method/interval_discretisation.h"
 #include "method/method.h"
 
 namespace plumbline::meshfree
@@ -22,6 +23,11 @@ namespace plumbline::meshfree
   /// @pre problem.cells, no dilatation
   std::unique_ptr<method::DiscretisationInSpace>
   discretise_on_nodes(const Rule &rule, const problem::Problem<3> &problem);
+
+  /// On intervals.
+  /// @pre rule.on_line
+  std::unique_ptr<method::IntervalDiscretisation>
+  discretise_on_intervals(const Rule &rule, const problem::Problem<1> &problem);
 
   /// On a lattice with one axis: motions of double wells.
   /// @pre is_axis_rule(rule.name)

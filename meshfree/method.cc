@@ -20,7 +20,8 @@ namespace plumbline::meshfree
     class RuleMethod : public method::Method,
                        public method::StripSolver,
                        public method::FractureSolver,
-                       public method::DynamicFractureSolver
+                       public method::DynamicFractureSolver,
+                       public method::MethodOnIntervals
     {
     public:
       explicit RuleMethod(Rule rule, bool is_in_all = true)
@@ -50,6 +51,19 @@ namespace plumbline::meshfree
       std::string why_not_in_space(const Kernel<3> &kernel) const override
       {
         return rule_.is_scalar && kernel.n_components() > 1 ? no_tensors() : "";
+      }
+
+      std::string why_not_on_intervals(const Kernel<1> &) const override
+      {
+        if (rule_.on_line)
+          return {};
+        return rule_.not_on_line.empty() ? "it is not implemented on a line" : rule_.not_on_line;
+      }
+
+      std::unique_ptr<method::IntervalDiscretisation>
+      discretise_on_intervals(const problem::Problem<1> &problem) const override
+      {
+        return meshfree::discretise_on_intervals(rule_, problem);
       }
 
       method::Capabilities can() const override

@@ -2,6 +2,7 @@
 
 #include "method/lattice_discretisation.h"
 #include "reference/lattice/discretisation.h"
+#include "reference/lattice/intervals.h"
 #include "reference/lattice/torus_motion.h"
 #include "reference/local/local_limit.h"
 #include "reference/mesh/discretisation.h"
@@ -15,7 +16,9 @@ namespace plumbline::reference
 {
   namespace
   {
-    class GalerkinMethod : public method::Method, public method::StripSolver
+    class GalerkinMethod : public method::Method,
+                           public method::StripSolver,
+                           public method::MethodOnIntervals
     {
     public:
       /// @param by_quadrature  its entries, where exact ones are known, too
@@ -120,6 +123,17 @@ namespace plumbline::reference
         if (shapes.families().size() == 1)
           return discretise_on_box(problem, shapes);
         return discretise_by_families(problem, shapes);
+      }
+      std::string why_not_on_intervals(const physics::Kernel<1> &kernel) const override
+      {
+        if (n_vertices_ == 3)
+          return "its cells are triangles";
+        return reference::why_not_on_intervals(kernel, is_continuous_);
+      }
+      std::unique_ptr<method::IntervalDiscretisation>
+      discretise_on_intervals(const problem::Problem<1> &problem) const override
+      {
+        return reference::discretise_on_intervals(problem, AxisShapes(is_continuous_, degree_));
       }
       const method::StripSolver *strip_solver() const override
       {

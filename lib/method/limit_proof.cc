@@ -1,6 +1,7 @@
 #include "method/limit_proof.h"
 
 #include "physics/profile_shape.h"
+#include "problem/on_line.h"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,10 @@ namespace plumbline::method
     {
       return problem.h();
     }
+    double cell_size(const problem::Problem<1> &problem)
+    {
+      return problem.h();
+    }
 
     /// T_abcd of the local operator L u_a = -T_abcd ∂_c ∂_d u_b, symmetric in c and d.
     template <int dim>
@@ -32,12 +37,13 @@ namespace plumbline::method
       ++alpha[c];
       ++alpha[d];
       double value = problem.kernel.moment(alpha, a, b) / 2;
-      if (problem.dilatation)
-      {
-        const physics::Lame lame = problem.dilatation->material({});
-        const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
-        value += (lame.lambda - lame.mu) * n_ways / 2;
-      }
+      if constexpr (dim > 1) // on a line there are scalar kernels alone
+        if (problem.dilatation)
+        {
+          const physics::Lame lame = problem.dilatation->material({});
+          const int n_ways = (a == c && b == d ? 1 : 0) + (a == d && b == c ? 1 : 0);
+          value += (lame.lambda - lame.mu) * n_ways / 2;
+        }
       return value;
     }
 
@@ -118,6 +124,8 @@ namespace plumbline::method
     return proof;
   }
 
+  template LimitProof prove_by_moments(const problem::Problem<1> &, const algebra::Stencil &,
+                                       double);
   template LimitProof prove_by_moments(const problem::Problem<2> &, const algebra::Stencil &,
                                        double);
   template LimitProof prove_by_moments(const problem::Problem<3> &, const algebra::Stencil &,
@@ -177,14 +185,29 @@ namespace plumbline::method
     return proof;
   }
 
+  namespace
+  {
+    /// Of a homogeneous material, with exact entries.
+    template <int dim>
+    LimitProof prove_homogeneous(const problem::Problem<dim> &problem)
+    {
+      LimitProof proof;
+      if (!problem.settings.tends_to_local_limit)
+        return proof;
+      const bool is_proven = has_theorem(problem.kernel);
+      proof.answer = is_proven ? Answer::compatible : Answer::unknown;
+      proof.reason = is_proven ? theorem : no_theorem;
+      return proof;
+    }
+  } // namespace
+
   LimitProof prove_galerkin(const problem::Problem<3> &problem)
   {
-    LimitProof proof;
-    if (!problem.settings.tends_to_local_limit)
-      return proof;
-    const bool is_proven = has_theorem(problem.kernel);
-    proof.answer = is_proven ? Answer::compatible : Answer::unknown;
-    proof.reason = is_proven ? theorem : no_theorem;
-    return proof;
+    return prove_homogeneous(problem);
+  }
+
+  LimitProof prove_galerkin(const problem::Problem<1> &problem)
+  {
+    return prove_homogeneous(problem);
   }
 } // namespace plumbline::method

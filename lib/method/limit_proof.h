@@ -14,7 +14,7 @@ namespace plumbline::method
   /// (L u_a → -T_abcd ∂_c ∂_d u_b), L_h u tends to it for every smooth u as h → 0 at a fixed reach
   /// in cells, and only then: Taylor's formula, with the remainder O(h²). Stability is the solver's
   /// to show, which refuses stencils that are not positive definite.
-  /// In space and in the plane.
+  /// In space, in the plane and on a line.
   /// @param mass  1 for equations at nodes, h^dim for tested ones [1 or length^dim]
   /// @pre  stencil.n_blocks() == problem.n_components: one family of nodes
   template <int dim>
@@ -47,4 +47,8 @@ namespace plumbline::method
 
   /// The same on a box in space, whose entries are exact and whose material is homogeneous.
   LimitProof prove_galerkin(const problem::Problem<3> &problem);
+
+  /// The same on intervals. Kernels like 1/r, which are not integrable on a line, keep
+  /// discontinuous spaces conforming: the energy of a jump, 2 ∫ r C dr, is finite.
+  LimitProof prove_galerkin(const problem::Problem<1> &problem);
 } // namespace plumbline::method

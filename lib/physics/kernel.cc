@@ -156,7 +156,10 @@ namespace plumbline::physics
                        " is not a positive length; give a horizon > 0");
     if (profile_.is_empty())
       throw InputError("kernel: the radial profile has no term; give Kernel/coefficients");
-    if (profile_.lowest_exponent() <= -dim)
+    if (dim == 1 && profile_.lowest_exponent() <= -3)
+      throw InputError("kernel: the profile term r^" + std::to_string(profile_.lowest_exponent()) +
+                       " has no finite second moment on a line; use exponents above -3");
+    if (dim > 1 && profile_.lowest_exponent() <= -dim)
       throw InputError("kernel: the profile term r^" + std::to_string(profile_.lowest_exponent()) +
                        " is not integrable in " + std::to_string(dim) + "D; use exponents above " +
                        std::to_string(-dim));
@@ -238,6 +241,8 @@ namespace plumbline::physics
     }
     else if (a != b)
       return 0;
+    if (dim == 1 && order % 2 != 0)
+      return 0; // as a principal value, where the profile itself has no such moment
     return constant_ * std::pow(horizon_, order + dim) * profile_.moment(order + dim - 1) *
            sphere_moment<dim>(direction);
   }
@@ -255,12 +260,13 @@ namespace plumbline::physics
     else
     {
       // ½ ∫ C_11 ξ_2² = μ, and ½ ∫ C_11 ξ_1² = λ + 2μ = 3μ
-      alpha[1] = 2;
+      alpha[dim - 1] = 2; // on a line, where there are no shear strains: ½ ∫ C ξ²
       limit.mu = limit.lambda = .5 * moment(alpha);
     }
     return limit;
   }
 
+  template class Kernel<1>;
   template class Kernel<2>;
   template class Kernel<3>;
 } // namespace plumbline::physics

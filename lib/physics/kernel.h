@@ -57,8 +57,9 @@ namespace plumbline::physics
   };
 
   /// The kernel C of L u(x) = -∫_{|ξ|<δ} C(ξ) (u(x+ξ) - u(x)) dξ with a radial profile, all its
-  /// moments being exact, or to round-off where the profile is a function. Instantiated for dim = 2
-  /// and 3.
+  /// moments being exact, or to round-off where the profile is a function. Instantiated for dim =
+  /// 1, 2 and 3; on a line, where kernels like 1/r are common and not integrable, a finite second
+  /// moment is enough, and moments of order 0 and 1 may not exist.
   template <int dim>
   class Kernel
   {
@@ -66,7 +67,7 @@ namespace plumbline::physics
     /// @param horizon  δ > 0 [length]
     /// @param constant c [1 / length^(dim+2) times the unit of the operator]
     /// @throws InputError  horizon <= 0, an empty profile, or a profile that is not integrable
-    ///                     (like t^-dim or worse at 0)
+    ///                     (like t^-dim or worse at 0; for dim = 1: t^-3 or worse)
     Kernel(Structure structure, RadialProfile profile, double horizon, double constant);
 
     /// The kernel whose local limit is -diffusion Δ.

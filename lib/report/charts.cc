@@ -381,8 +381,8 @@ namespace plumbline::report
         const bool is_solution = chart.kind == ChartKind::solution;
         write_file(folder / (chart.name + ".csv"),
                    to_csv(is_solution ? solution_table(*solution) : map_table(results.maps)));
-        script +=
-            is_solution ? solution_script(*solution, picture) : map_script(results.maps, picture);
+        script += is_solution ? solution_script(*solution, picture, names)
+                              : map_script(results.maps, picture, names);
         continue;
       }
       const std::vector<const Case *> chosen = cases_of(all, chart);

@@ -1,5 +1,6 @@
 #include "report/maps.h"
 
+#include "report/charts.h"
 #include "report/plot.h"
 #include "report/small_multiples.h"
 
@@ -28,6 +29,12 @@ namespace plumbline::report
           text += i + 1 < map.n_x ? " " : "\n";
         }
       return text;
+    }
+
+    /// Of a problem on intervals: values along x.
+    bool is_curve(const study::ErrorMap &map)
+    {
+      return map.n_y == 1 && map.lower[1] == map.upper[1];
     }
 
     /// Of the finite ones.
@@ -77,6 +84,56 @@ namespace plumbline::report
       };
       return "plot $m" + std::to_string(i) + " matrix using " + centre(0, "$1") + ":" +
              centre(1, "$2") + ":3 with image notitle\n";
+    }
+
+    /// What is drawn of maps along x.
+    struct Curves
+    {
+      std::vector<double> study::ErrorMap::*values;
+      double least = 0; ///< of logarithmic axes; 0: the axis is linear
+    };
+
+    /// A line for each interval, the first of them in the legend.
+    void add_curve(const study::ErrorMap &map, const Curves &curves, const Style &style,
+                   std::vector<Line> &lines)
+    {
+      constexpr unsigned int n_symbols = 12;
+      const std::vector<double> &values = map.*curves.values;
+      bool is_going_on = false;
+      for (unsigned int i = 0; i < map.n_x; ++i)
+      {
+        if (!std::isfinite(values[i]))
+        {
+          is_going_on = false;
+          continue;
+        }
+        if (!is_going_on)
+        {
+          const bool is_first = lines.empty() || lines.back().style.colour != style.colour ||
+                                lines.back().style.symbol != style.symbol ||
+                                lines.back().style.is_dashed != style.is_dashed;
+          lines.push_back({is_first ? map.method : "", style, 1.8, {}});
+          lines.back().symbol_interval = std::max(1u, map.n_x / n_symbols);
+        }
+        is_going_on = true;
+        lines.back().points.push_back(
+            {map.lower[0] + (i + .5) * block(map, 0),
+             curves.least > 0 ? std::max(values[i], curves.least) : values[i]});
+      }
+    }
+
+    /// Lines along x, without the ordinate's name.
+    Plot curve_plot(const std::vector<study::ErrorMap> &maps, const std::string &file,
+                    const Curves &curves, const std::vector<MethodName> &methods)
+    {
+      Plot plot;
+      plot.file = file;
+      plot.x_label = "x [length]";
+      plot.is_x_log = false;
+      plot.is_y_log = curves.least > 0;
+      for (const study::ErrorMap &map : maps)
+        add_curve(map, curves, style_of(methods, map.method), plot.lines);
+      return plot;
     }
 
     /// @param values  of the map's blocks
@@ -131,9 +188,18 @@ namespace plumbline::report
     return place(first) + (is_same ? ", h = " + rounded(first.h) : "") + ": where the error sits";
   }
 
-  std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file)
+  std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file,
+                         const std::vector<MethodName> &methods)
   {
     const std::size_t n = maps.size();
+    if (is_curve(maps.front()))
+    {
+      Plot plot =
+          curve_plot(maps, file, {&study::ErrorMap::values, colour_scale(maps).low}, methods);
+      plot.title = map_title(maps);
+      plot.y_label = "|error of " + maps.front().quantity + "| [unit of the solution]";
+      return gnuplot_script({plot});
+    }
     const SmallMultiples panels(n,
                                 n <= 4   ? n
                                 : n <= 6 ? 3
@@ -179,8 +245,19 @@ namespace plumbline::report
     return place(map) + ", h = " + rounded(map.h) + ": solution computed with " + map.method;
   }
 
-  std::string solution_script(const study::ErrorMap &map, const std::string &file)
+  std::string solution_script(const study::ErrorMap &map, const std::string &file,
+                              const std::vector<MethodName> &methods)
   {
+    if (is_curve(map))
+    {
+      const Range along = range_of(map.solution);
+      const double margin = along.high > along.low ? .05 * (along.high - along.low) : .5;
+      Plot plot = curve_plot({map}, file, {&study::ErrorMap::solution}, methods);
+      plot.title = solution_title(map);
+      plot.y_label = symbol(map) + " [unit of the solution]";
+      plot.y_range = Range{along.low - margin, along.high + margin};
+      return gnuplot_script({plot});
+    }
     const SmallMultiples panels(1, 1, map.lower, map.upper);
     const Range range = range_of(map.solution);
     const double high = range.high > range.low ? range.high : range.low + 1;

@@ -24,9 +24,12 @@ namespace plumbline::report
   /// "case1, m = 3, h = 0.05: ..."; without h if the maps differ in it.
   std::string map_title(const std::vector<study::ErrorMap> &maps);
 
-  /// The commands that draw all maps into one picture, side by side on one colour scale.
+  /// The commands that draw all maps into one picture, side by side on one colour scale; errors
+  /// along a line as curves.
+  /// @param methods  with their families, for the styles of curves
   /// @pre  at least one map
-  std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file);
+  std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file,
+                         const std::vector<MethodName> &methods = {});
 
   /// The solution of a map: of the first Galerkin method that has one, or else of the method with
   /// the smallest error; nullptr if none has one.
@@ -37,9 +40,11 @@ namespace plumbline::report
   /// "case1, m = 3, h = 0.05: solution computed with Q1".
   std::string solution_title(const study::ErrorMap &map);
 
-  /// The commands that draw the solution of a map on a linear scale of colours.
+  /// The commands that draw the solution of a map on a linear scale of colours, or as a curve.
+  /// @param methods  as of map_script()
   /// @pre  it has a solution
-  std::string solution_script(const study::ErrorMap &map, const std::string &file);
+  std::string solution_script(const study::ErrorMap &map, const std::string &file,
+                              const std::vector<MethodName> &methods = {});
 
   /// One row for each block inside the domain, at its centre: the solution there.
   Table solution_table(const study::ErrorMap &map);

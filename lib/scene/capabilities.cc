@@ -85,7 +85,9 @@ namespace plumbline::scene
       case C::periodic:
         return {"Domain/boundary = periodic", "write constrained"};
       case C::line:
-        return {"Domain/dimension = 1, which is for transient analysis of double wells", "write 2"};
+        return {"Domain/dimension = 1, which is for static analyses of scalar kernels on intervals "
+                "and for transient analyses of double wells",
+                "write 2"};
       case C::space:
         return {"Domain/dimension = 3, which is available for static, transient and dispersion "
                 "analyses of linear materials, for quasi-static fracture and for the check of "
@@ -111,7 +113,7 @@ namespace plumbline::scene
     const Capabilities on_meshes_alone =
         of_meshes() | of_damage() |
         Capabilities{C::heterogeneous, C::zero_dilatation, C::mixed_dilatation};
-    const Capabilities moving = {C::dynamic, C::notch, C::periodic, C::line};
+    const Capabilities moving = {C::dynamic, C::notch, C::periodic};
     static const std::vector<Capable> all = {
         {base::word(Analysis::statics),
          all_but(moving | of_double_wells | Capabilities{C::floating})},

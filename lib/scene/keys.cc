@@ -6,6 +6,7 @@
 #include "base/text_file.h"
 #include "physics/expression.h"
 #include "scene/aliases.h"
+#include "scene/on_line.h"
 #include "scene/values.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -124,13 +125,13 @@ namespace plumbline::scene
     public:
       AnyBoxes()
           : InWords<Patterns::List>("boxes 'x0, y0 : x1, y1' separated by ';' (in three dimensions "
-                                    "'x0, y0, z0 : x1, y1, z1')",
+                                    "'x0, y0, z0 : x1, y1, z1', in one 'x0 : x1')",
                                     polyline(2), 0, any_length, ";")
       {
       }
       bool match(const std::string &text) const override
       {
-        return are_in_space(text) || List::match(text);
+        return are_in_space(text) || are_on_line(text) || List::match(text);
       }
       std::unique_ptr<PatternBase> clone() const override
       {
@@ -339,6 +340,36 @@ namespace plumbline::scene
         if (!(cuboid.lower[d] < cuboid.upper[d]))
           throw wrong("is empty");
       result.push_back(cuboid);
+    }
+    return result;
+  }
+
+  bool are_on_line(const std::string &boxes)
+  {
+    const std::size_t colon = boxes.find(':');
+    return colon != std::string::npos && boxes.find(',') > colon;
+  }
+
+  std::vector<geometry::Box> to_intervals(const std::string &text)
+  {
+    std::vector<geometry::Box> result;
+    for (const std::string &interval : physics::split_outside_brackets(text, ';'))
+    {
+      const auto ends = physics::split_outside_brackets(interval, ':');
+      const auto wrong = [&](const std::string &reason)
+      {
+        return InputError("interval '" + base::shown(interval) + "' " + reason +
+                          "; write 'x0 : x1' with x0 < x1, and ';' between intervals");
+      };
+      if (ends.size() != 2)
+        throw wrong("does not have two ends");
+      if (interval.find(',') != std::string::npos)
+        throw wrong("has an end with more than one coordinate");
+      const double lower = to_number(without_fraction(ends[0])),
+                   upper = to_number(without_fraction(ends[1]));
+      if (!(lower < upper))
+        throw wrong("is empty");
+      result.push_back({dealii::Point<2>(lower, 0), dealii::Point<2>(upper, 0)});
     }
     return result;
   }

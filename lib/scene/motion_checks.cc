@@ -4,6 +4,7 @@
 #include "scene/capabilities.h"
 #include "scene/checks.h"
 #include "scene/models/model.h"
+#include "scene/on_line.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -68,39 +69,6 @@ namespace plumbline::scene
       }
     }
 
-    /// Checks at some points that fields on a line do not depend on y.
-    void check_line(const Scene &scene)
-    {
-      require(scene.domain.is_periodic, "Domain/dimension = 1 needs Domain/boundary = periodic: a "
-                                        "line has no interaction domain here");
-      const TimeSection &time = scene.time;
-      std::vector<std::pair<std::string, std::string>> given = {
-          {"Time/initial displacement", time.initial_displacement},
-          {"Time/initial velocity", time.initial_velocity}};
-      for (const NamedExpression &one : scene.problem.solutions)
-        given.emplace_back("Problem/solution", one.expression);
-      for (const NamedExpression &one : scene.problem.loads)
-        given.emplace_back("Problem/load", one.expression);
-      const geometry::Box &box = scene.domain.boxes.include.front();
-      for (const auto &[key, text] : given)
-        for (const double part : parts_of_time)
-        {
-          if (text.empty())
-            continue;
-          auto names = scene.names(1, part * time.final_time);
-          names.constants["h"] = 1; // of the level
-          const physics::Expression u(key, text, names);
-          for (const double s : base::control_points(200))
-          {
-            const double x = box.lower[0] + s * (box.upper[0] - box.lower[0]);
-            require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
-                    key + " = '" + text +
-                        "' depends on y, which a line (Domain/dimension = 1) does "
-                        "not have; write it in x alone");
-          }
-        }
-    }
-
     void check_targets(const Scene &scene)
     {
       const StudySection &study = scene.study;
@@ -142,7 +110,12 @@ namespace plumbline::scene
   void check_motion(const Scene &scene)
   {
     if (scene.domain.dimension == 1)
-      check_line(scene);
+    {
+      require(scene.domain.is_periodic || is_on_intervals(scene),
+              "Domain/dimension = 1 with Material/model = " + scene.material.model->name() +
+                  " needs Domain/boundary = periodic: a line has no interaction domain here");
+      check_without_y(scene);
+    }
     if (scene.domain.is_periodic)
     {
       check_torus(scene);

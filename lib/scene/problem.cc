@@ -8,6 +8,7 @@
 #include "scene/mesh_in_space.h"
 #include "scene/models/model.h"
 #include "scene/nodes_in_space.h"
+#include "scene/on_line.h"
 
 #include <utility>
 
@@ -192,6 +193,33 @@ namespace plumbline::scene
     problem::Problem<3> result = problem::complete(std::move(given));
     result.is_load_given = !section.loads.empty();
     return result;
+  }
+
+  problem::Problem<1> make_problem_on_line(const Scene &scene, unsigned int case_index,
+                                           const Level &level)
+  {
+    const auto field = [&](const std::string &key, const std::string &text)
+    {
+      const Expression expression(key, text, scene.names(level.horizon));
+      return problem::Field<1>{[expression](const dealii::Point<1> &x, unsigned int component)
+                               { return expression(dealii::Point<2>(x[0], 0), component); }};
+    };
+    std::vector<geometry::Interval> pieces;
+    for (const geometry::Box &box : scene.domain.boxes.include)
+      pieces.push_back({box.lower[0], box.upper[0]});
+    problem::Problem<1> given{geometry::IntervalLattice(std::move(pieces), level.h),
+                              make_kernel_on_line(scene, level.horizon)};
+    given.settings = method_settings(scene);
+    const ProblemSection &section = scene.problem;
+    if (!section.solutions.empty())
+      given.solution = field("Problem/solution", section.solutions[case_index].expression);
+    if (!section.loads.empty())
+      given.load = field("Problem/load", section.loads[case_index].expression);
+    if (section.constraint)
+      given.constraint = field("Problem/constraint", *section.constraint);
+    if (section.local_solution == LocalSolution::expression)
+      given.local_solution = field("Problem/local solution", section.local_expression);
+    return problem::complete(std::move(given));
   }
 
   Case make_case(const Scene &scene, unsigned int case_index, const Level &level)

@@ -12,6 +12,7 @@
 #include "scene/input_files.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
+#include "scene/on_line.h"
 #include "scene/origin.h"
 #include "scene/scene_file.h"
 #include "scene/scene_keys.h"
@@ -290,7 +291,10 @@ namespace plumbline::scene
     try
     {
       Scene here = at_sample(scene, values, scene.random.realisation);
-      (void)make_kernel(here, level.horizon); // is the material valid?
+      if (is_on_intervals(here)) // is the material valid?
+        (void)make_kernel_on_line(here, level.horizon);
+      else
+        (void)make_kernel(here, level.horizon);
       return here;
     }
     catch (const InputError &error)

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "scene/checks.h"
 #include "scene/models/model.h"
+#include "scene/on_line.h"
 #include "scene/values.h"
 
 #include <algorithm>
@@ -117,6 +118,15 @@ namespace plumbline::scene
 
   void check_space(const Scene &scene)
   {
+    if (is_on_intervals(scene))
+      return check_intervals(scene);
+    for (const std::vector<geometry::Box> *boxes :
+         {&scene.domain.boxes.include, &scene.domain.boxes.exclude})
+      for (const geometry::Box &box : *boxes)
+        require(box.lower[1] < box.upper[1] || scene.domain.dimension == 1,
+                "Domain/boxes or Domain/holes has one coordinate per end, but Domain/dimension = " +
+                    std::to_string(scene.domain.dimension) +
+                    "; write Domain/dimension = 1, or all coordinates");
     if (scene.domain.is_in_space())
     {
       check_domain_in_space(scene);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
+#include "scene/on_line.h"
 #include "scene/values.h"
 
 namespace plumbline::scene
@@ -25,7 +26,11 @@ namespace plumbline::scene
                  is_static = !scene.time.is_dynamic(), is_in_space = scene.domain.is_in_space(),
                  is_on_cubes = is_in_space && scene.domain.mesh.is_lattice() &&
                                scene.methods.nodes.are_lattice_centres();
-      const std::string exact = "two dimensions; entries on lattices in three dimensions are exact";
+      const bool is_on_line = is_on_intervals(scene), is_in_plane = !is_in_space && !is_on_line;
+      const std::string exact = is_on_line
+                                    ? "two dimensions; entries on intervals are exact"
+                                    : "two dimensions; entries on lattices in three dimensions "
+                                      "are exact";
       return {
           {"Study/m", !takes_horizon,
            "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
@@ -40,14 +45,14 @@ namespace plumbline::scene
           {"Reference/tolerance", is_static, "a static problem"},
           {"Problem/local solution",
            is_static || scene.problem.local_solution == LocalSolution::none, "a static problem"},
-          {"Quadrature/entries", !is_in_space, exact},
-          {"Quadrature/tolerance", !is_in_space, exact},
-          {"Quadrature/max refinements", !is_in_space, exact},
-          {"Geometry/backend", !is_in_space, "two dimensions"},
-          {"Geometry/checks", !is_in_space, "two dimensions"},
-          {"Geometry/seed", !is_in_space || scene.methods.nodes.perturbation > 0,
+          {"Quadrature/entries", is_in_plane, exact},
+          {"Quadrature/tolerance", is_in_plane, exact},
+          {"Quadrature/max refinements", is_in_plane, exact},
+          {"Geometry/backend", is_in_plane, "two dimensions"},
+          {"Geometry/checks", is_in_plane, "two dimensions"},
+          {"Geometry/seed", is_in_plane || scene.methods.nodes.perturbation > 0,
            "two dimensions, or Methods/perturbation > 0"},
-          {"Solver/linear solver", !is_on_cubes,
+          {"Solver/linear solver", !is_on_cubes && !is_on_line,
            "two dimensions, meshes or scattered nodes; lattices in three dimensions are solved by "
            "conjugate gradients with sine transforms"},
           {"Solver/tolerance", is_static || !is_in_space, "a static problem"},

@@ -7,10 +7,12 @@
 #include "scene/damage.h"
 #include "scene/mesh.h"
 #include "scene/mesh_in_space.h"
+#include "scene/on_line.h"
 #include "scene/origin.h"
 #include "scene/values.h"
 #include "study/method_names.h"
 #include "study/refusal.h"
+#include "study/statics_on_line.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,12 +74,16 @@ namespace plumbline::study
     const problem::Level &level = scene.study.series.front().levels.front();
     const scene::Scene here = at_level(scene, level);
     std::optional<problem::Problem<2>> first;
-    if (!here.domain.is_in_space())
+    const bool is_on_line = is_on_intervals(here);
+    if (is_on_line)
+      (void)make_problem_on_line(here, 0, level);
+    else if (!here.domain.is_in_space())
       first = make_problem(here, 0, level);
     const auto reason_against = [&](const Method &method)
     {
-      return first ? refusal(method, here, *first, available)
-                   : refusal_in_space(method, here, available);
+      return is_on_line ? refusal_on_line(method, here, available)
+             : first    ? refusal(method, here, *first, available)
+                        : refusal_in_space(method, here, available);
     };
     Methods chosen = named_methods(
         scene, available, [&](const Method &method) { return reason_against(method).empty(); });
@@ -235,6 +241,8 @@ namespace plumbline::study
         scene::CellsInSpace &known = cells[{level.h, level.horizon}];
         known = make_problem_in_space(scene, c, level, 0, nullptr, known).cells;
       }
+      else if (is_on_intervals(scene))
+        (void)make_problem_on_line(at_level(scene, level), c, level);
       else
         check_data(make_problem(at_level(scene, level), c, level));
     };

@@ -141,10 +141,12 @@ namespace plumbline::study
     std::string quantity; ///< "nodal values" or "cell averages"
     double h = 0, horizon = 0;
     std::array<double, 2> lower{}, upper{}; ///< corners of the bounding box [length]
-    unsigned int n_x = 0, n_y = 0;          ///< blocks, at most 32 each
-    double size = 1;                        ///< of the solution, see size_of()
-    std::vector<double> values;             ///< shape (n_y, n_x), NaN outside the domain
-    unsigned int n_components = 1;          ///< of u
+    /// Blocks, at most 32 each; of a curve, a problem on intervals, up to 256 and 1: it has no
+    /// height.
+    unsigned int n_x = 0, n_y = 0;
+    double size = 1;               ///< of the solution, see size_of()
+    std::vector<double> values;    ///< shape (n_y, n_x), NaN outside the domain
+    unsigned int n_components = 1; ///< of u
     /// Mean of u in each block, of |u| if it is a vector; as `values`, or empty.
     std::vector<double> solution = {};
   };

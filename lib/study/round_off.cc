@@ -30,6 +30,24 @@ namespace plumbline::study
       return problem.h() * *std::min_element(n.begin(), n.end());
     }
 
+    double width(const problem::Problem<1> &problem)
+    {
+      return problem.h() * problem.lattice.n_cells();
+    }
+
+    template <int dim>
+    double operator_scale(const problem::Problem<dim> &problem)
+    {
+      return physics::operator_scale(problem.kernel);
+    }
+
+    double operator_scale(const problem::Problem<1> &problem)
+    {
+      const physics::Kernel<1> &kernel = problem.kernel;
+      const double from = std::min(.5, problem.h() / (2 * kernel.horizon()));
+      return 2 * kernel.horizon() * std::abs(kernel.constant() * kernel.profile().moment(0, from));
+    }
+
     /// The least of ∫ C_aa ξ_c²: how stiff the operator is at least.
     template <int dim>
     double least_second_moment(const physics::Kernel<dim> &kernel)
@@ -53,7 +71,7 @@ namespace plumbline::study
       constexpr double safety = 10, epsilon = std::numeric_limits<double>::epsilon();
       const double a = width(problem) / 2 + problem.horizon();
       const double amplification =
-          physics::operator_scale(problem.kernel) * a * a / least_second_moment(problem.kernel);
+          operator_scale(problem) * a * a / least_second_moment(problem.kernel);
       double largest = 0;
       for (const double average : solution.averages)
         largest = std::max(largest, std::abs(average));
@@ -89,6 +107,17 @@ namespace plumbline::study
   double round_off_error(const problem::Problem<2> &problem, const Solution &solution)
   {
     return round_off(problem, solution, problem.lattice() != nullptr, base::Communicator::alone());
+  }
+
+  double round_off_error(const problem::Problem<1> &problem, const std::vector<double> &averages,
+                         const method::Diagnostics &diagnostics)
+  {
+    const struct
+    {
+      const std::vector<double> &averages;
+      const method::Diagnostics &diagnostics;
+    } solution{averages, diagnostics};
+    return round_off(problem, solution, true, base::Communicator::alone());
   }
 
   double round_off_error(const problem::Problem<3> &problem,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/statics.h"
+#include "problem/on_line.h"
 #include "study/results.h"
 
 namespace plumbline::study
@@ -22,6 +23,11 @@ namespace plumbline::study
   double round_off_error(const problem::Problem<3> &problem,
                          const analysis::SolutionInSpace &solution,
                          const base::Communicator &ranks = base::Communicator::alone());
+
+  /// The same on intervals. ∫|C| is taken from h/2 on: nearer there are no bonds, and kernels like
+  /// 1/r have no such integral.
+  double round_off_error(const problem::Problem<1> &problem, const std::vector<double> &averages,
+                         const method::Diagnostics &diagnostics);
 
   /// How far a solution varies: largest less least cell average, of the component where it is most.
   /// @param averages  shape (n_cells, n_components)

@@ -2,6 +2,7 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "scene/on_line.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
@@ -16,6 +17,7 @@
 #include "study/self_convergence.h"
 #include "study/solution_record.h"
 #include "study/statics_in_space.h"
+#include "study/statics_on_line.h"
 #include "study/timing.h"
 #include "study/truncation.h"
 
@@ -309,6 +311,8 @@ namespace plumbline::study
     {
       if (place.scene().domain.is_in_space())
         open_statics_in_space(place, available, options);
+      else if (is_on_intervals(place.scene()))
+        open_statics_on_line(place, available, options);
       else
         LevelOfStatics(place, available, options).warn();
     };
@@ -316,6 +320,8 @@ namespace plumbline::study
     {
       return place.scene().domain.is_in_space()
                  ? statics_in_space(place, method, available, options)
+             : is_on_intervals(place.scene())
+                 ? statics_on_line(place, method, available, options)
                  : LevelOfStatics(place, available, options).run(method);
     };
     analysis.complete = [](const scene::Scene &scene, Common &common)

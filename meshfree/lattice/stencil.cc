@@ -3,6 +3,7 @@
 #include "meshfree/rules/family_moments.h"
 #include "meshfree/rules/family_statistics.h"
 #include "method/limit_proof.h"
+#include "problem/on_line.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ namespace plumbline::meshfree
       for (const int k : offset(bond, bonds.h))
         reach = std::max(reach, std::abs(k));
     algebra::Stencil stencil(kernel.n_components(),
-                             std::array<int, 3>{reach, reach, dim == 3 ? reach : 0});
+                             std::array<int, 3>{reach, dim >= 2 ? reach : 0, dim == 3 ? reach : 0});
     for (const Bond<dim> &bond : bonds.family)
       for (unsigned int a = 0; a < kernel.n_components(); ++a)
         for (unsigned int b = 0; b < kernel.n_components(); ++b)
@@ -44,6 +45,7 @@ namespace plumbline::meshfree
     return stencil;
   }
 
+  template algebra::Stencil lattice_operator(const physics::Kernel<1> &, const Bonds<1> &);
   template algebra::Stencil lattice_operator(const physics::Kernel<2> &, const Bonds<2> &);
   template algebra::Stencil lattice_operator(const physics::Kernel<3> &, const Bonds<3> &);
 
@@ -93,6 +95,8 @@ namespace plumbline::meshfree
     return diagnostics;
   }
 
+  template method::Diagnostics describe(const problem::Problem<1> &, const Bonds<1> &,
+                                        const algebra::Stencil &);
   template method::Diagnostics describe(const problem::Problem<2> &, const Bonds<2> &,
                                         const algebra::Stencil &);
   template method::Diagnostics describe(const problem::Problem<3> &, const Bonds<3> &,

@@ -9,7 +9,7 @@
 namespace plumbline::meshfree
 {
   /// The rule's operator L_h on a lattice: row i is -Σ C(kernel_point) (u(x_i + ξ) - u_i)
-  /// weight. Instantiated for dim = 2 and 3.
+  /// weight. Instantiated for dim = 1, 2 and 3.
   template <int dim>
   algebra::Stencil lattice_operator(const physics::Kernel<dim> &kernel, const Bonds<dim> &bonds);
 
@@ -23,7 +23,7 @@ namespace plumbline::meshfree
   algebra::Stencil state_based_stencil(const physics::Dilatation<dim> &dilatation,
                                        const Bonds<dim> &bonds);
 
-  /// Diagnostics of a rule's weights and of its limit. Instantiated for dim = 2 and 3.
+  /// Diagnostics of a rule's weights and of its limit. Instantiated for dim = 1, 2 and 3.
   /// @param stencil  its operator for the problem
   template <int dim>
   method::Diagnostics describe(const problem::Problem<dim> &problem, const Bonds<dim> &bonds,

@@ -18,6 +18,8 @@ namespace plumbline::meshfree
     return radial_value(kernel, bond) * kernel.direction_factor(a, b, bond.kernel_point);
   }
 
+  template double radial_value(const Kernel<1> &, const Bond<1> &);
+  template double kernel_value(const Kernel<1> &, const Bond<1> &, unsigned int, unsigned int);
   template double radial_value(const Kernel<2> &, const Bond<2> &);
   template double radial_value(const Kernel<3> &, const Bond<3> &);
   template double kernel_value(const Kernel<2> &, const Bond<2> &, unsigned int, unsigned int);

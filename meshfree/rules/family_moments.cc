@@ -106,6 +106,7 @@ namespace plumbline::meshfree
     return difference / whole;
   }
 
+  template class BallMoments<1>;
   template class BallMoments<2>;
   template class BallMoments<3>;
 

@@ -10,7 +10,7 @@
 namespace plumbline::meshfree
 {
   /// The moments of a kernel's ball that the weights of families are held against. Instantiated for
-  /// dim = 2 and 3.
+  /// dim = 1, 2 and 3.
   template <int dim>
   class BallMoments
   {

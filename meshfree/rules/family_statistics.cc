@@ -26,6 +26,7 @@ namespace plumbline::meshfree
         std::min(diagnostics.smallest_singular_value, fit.smallest_singular_value);
   }
 
+  template void describe_weights(const std::vector<Bond<1>> &, const Fit &, method::Diagnostics &);
   template void describe_weights(const std::vector<Bond<2>> &, const Fit &, method::Diagnostics &);
   template void describe_weights(const std::vector<Bond<3>> &, const Fit &, method::Diagnostics &);
 

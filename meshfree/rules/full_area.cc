@@ -15,6 +15,8 @@ namespace plumbline::meshfree
     return {full_area_bond<dim>};
   }
 
+  template Bond<1> full_area_bond(const Kernel<1> &, const Candidate<1> &);
+  template NeighbourhoodQuadrature<1> full_area(const Kernel<1> &);
   template Bond<2> full_area_bond(const Kernel<2> &, const Candidate<2> &);
   template NeighbourhoodQuadrature<2> full_area(const Kernel<2> &);
   template Bond<3> full_area_bond(const Kernel<3> &, const Candidate<3> &);

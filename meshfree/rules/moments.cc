@@ -209,7 +209,10 @@ namespace plumbline::meshfree
     for (Index i = 0; i < n_conditions; ++i)
     {
       const Exponents<dim> &alpha = conditions.exponents[i];
-      columns.col(i) = powers[0].col(alpha[0]).cwiseProduct(powers[1].col(alpha[1]));
+      if constexpr (dim == 1)
+        columns.col(i) = powers[0].col(alpha[0]);
+      else
+        columns.col(i) = powers[0].col(alpha[0]).cwiseProduct(powers[1].col(alpha[1]));
       for (unsigned int d = 2; d < dim; ++d)
         columns.col(i) = columns.col(i).cwiseProduct(powers[d].col(alpha[d]));
       for (Index j = 0; j < n && conditions.own_factor; ++j)
@@ -234,6 +237,7 @@ namespace plumbline::meshfree
       const Kernel<dim> &, unsigned int, std::vector<Exponents<dim>> (*)(int, int));               \
   template Bond<dim> coefficient_bond(const Kernel<dim> &, const Candidate<dim> &);                \
   template void meet(const MomentConditions<dim> &, Family<dim> &);
+  PLUMBLINE_INSTANTIATE(1)
   PLUMBLINE_INSTANTIATE(2)
   PLUMBLINE_INSTANTIATE(3)
 #undef PLUMBLINE_INSTANTIATE

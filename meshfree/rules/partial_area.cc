@@ -7,7 +7,13 @@ namespace plumbline::meshfree
     /// Slivers below round-off of the cell are tangencies.
     constexpr double sliver = 1e-14;
 
-    /// Area and centroid of ball ∩ piece.
+    /// Length and centroid of ball ∩ piece.
+    std::pair<double, Point<1>> cut(const Candidate<1> &candidate, const geometry::Interval &piece)
+    {
+      return geometry::intersect(candidate.ball, piece);
+    }
+
+    /// Area and centroid.
     std::pair<double, Point<2>> cut(const Candidate<2> &candidate,
                                     const geometry::ConvexCell &piece)
     {
@@ -60,6 +66,10 @@ namespace plumbline::meshfree
     return {centroid_bond<dim>};
   }
 
+  template Bond<1> partial_area_bond(const Kernel<1> &, const Candidate<1> &);
+  template Bond<1> centroid_bond(const Kernel<1> &, const Candidate<1> &);
+  template NeighbourhoodQuadrature<1> partial_area(const Kernel<1> &);
+  template NeighbourhoodQuadrature<1> improved_partial_area(const Kernel<1> &);
   template Bond<2> partial_area_bond(const Kernel<2> &, const Candidate<2> &);
   template Bond<2> centroid_bond(const Kernel<2> &, const Candidate<2> &);
   template NeighbourhoodQuadrature<2> partial_area(const Kernel<2> &);

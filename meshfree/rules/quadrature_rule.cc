@@ -32,6 +32,12 @@ namespace plumbline::meshfree
 
     /// The cell about node k of a lattice.
     template <class Use>
+    void with_cell(const std::array<int, 1> &k, double h, const Use &use)
+    {
+      use(geometry::Interval{(k[0] - .5) * h, (k[0] + .5) * h});
+    }
+
+    template <class Use>
     void with_cell(const std::array<int, 2> &k, double h, const Use &use)
     {
       const auto square = geometry::square(Point<2>((k[0] - .5) * h, (k[1] - .5) * h), h);
@@ -49,7 +55,9 @@ namespace plumbline::meshfree
   template <int dim>
   double ramp(const Kernel<dim> &kernel, const Candidate<dim> &candidate)
   {
-    const double size = dim == 2 ? std::sqrt(candidate.area) : std::cbrt(candidate.area);
+    const double size = dim == 1   ? candidate.area
+                        : dim == 2 ? std::sqrt(candidate.area)
+                                   : std::cbrt(candidate.area);
     return std::min(1., (kernel.horizon() - candidate.xi.norm()) / size + .5);
   }
 
@@ -95,7 +103,7 @@ namespace plumbline::meshfree
     const double horizon = kernel.horizon();
     const int n = static_cast<int>(horizon / h + .5 + tie_tolerance);
     Family<dim> family;
-    family.own_area = dim == 2 ? h * h : h * h * h;
+    family.own_area = dim == 1 ? h : dim == 2 ? h * h : h * h * h;
     std::array<int, dim> k;
     k.fill(-n);
     for (bool is_more = true; is_more; is_more = advance(k, n))
@@ -140,6 +148,7 @@ namespace plumbline::meshfree
                        const std::function<std::string()> &);                                      \
   template Bonds<dim> lattice_bonds(const NeighbourhoodQuadrature<dim> &, const Kernel<dim> &,     \
                                     double, Backend);
+  PLUMBLINE_INSTANTIATE(1)
   PLUMBLINE_INSTANTIATE(2)
   PLUMBLINE_INSTANTIATE(3)
 #undef PLUMBLINE_INSTANTIATE

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/ball_polyhedron.h"
+#include "geometry/interval.h"
 #include "geometry/node_cells.h"
 #include "meshfree/rules/bonds.h"
 
@@ -14,10 +15,12 @@ namespace plumbline::meshfree
   template <int dim>
   struct Candidate
   {
-    using Cell = std::conditional_t<dim == 2, geometry::ConvexCell, geometry::ConvexPolyhedron>;
+    template <class OnLine, class InPlane, class InSpace>
+    using Of = std::conditional_t<dim == 1, OnLine, std::conditional_t<dim == 2, InPlane, InSpace>>;
+    using Cell = Of<geometry::Interval, geometry::ConvexCell, geometry::ConvexPolyhedron>;
 
-    std::conditional_t<dim == 2, geometry::Ball, geometry::SolidBall> ball; ///< about the node
-    Backend backend = Backend::fast;                                        ///< in the plane
+    Of<geometry::LineBall, geometry::Ball, geometry::SolidBall> ball; ///< about the node
+    Backend backend = Backend::fast;                                  ///< in the plane
     Point<dim> xi;                             ///< from the family's node to this one [length]
     double area = 0;                           ///< of this node's cell [length^dim]
     dealii::ArrayView<const Cell> pieces = {}; ///< of this node's cell
@@ -59,7 +62,7 @@ namespace plumbline::meshfree
   Bond<dim> centroid_bond(const Kernel<dim> &kernel, const Candidate<dim> &candidate);
 
   /// 1 inside r = δ - √A/2, then linear through 1/2 at r = δ, negative beyond r = δ + √A/2; in
-  /// space with the cube root of the volume.
+  /// space with the cube root of the volume, on a line with the length.
   template <int dim>
   double ramp(const Kernel<dim> &kernel, const Candidate<dim> &candidate);
 

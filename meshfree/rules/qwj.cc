@@ -19,6 +19,7 @@ namespace plumbline::meshfree
     return {bond<dim>};
   }
 
+  template NeighbourhoodQuadrature<1> qwj(const Kernel<1> &);
   template NeighbourhoodQuadrature<2> qwj(const Kernel<2> &);
   template NeighbourhoodQuadrature<3> qwj(const Kernel<3> &);
 } // namespace plumbline::meshfree

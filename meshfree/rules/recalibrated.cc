@@ -65,6 +65,7 @@ namespace plumbline::meshfree
             { meet(family.neighbours.empty() ? even : all, family); }};
   }
 
+  template NeighbourhoodQuadrature<1> recalibrated(const Kernel<1> &, unsigned int);
   template NeighbourhoodQuadrature<2> recalibrated(const Kernel<2> &, unsigned int);
   template NeighbourhoodQuadrature<2> recalibrated_at_centroid(const Kernel<2> &);
   template NeighbourhoodQuadrature<3> recalibrated(const Kernel<3> &, unsigned int);

@@ -17,20 +17,29 @@ namespace plumbline::meshfree
   const std::vector<Rule> &rules()
   {
     static const std::vector<Rule> table = {
-        {"FA", "full area of cells whose node is in the ball", full_area<2>, full_area<3>},
-        {"LAMMPS", "full area with a ramp inside the horizon", lammps<2>, lammps<3>},
-        {"QWJ", "full area with a ramp across the horizon", qwj<2>, qwj<3>},
-        {"PA-AC", "exact partial areas, kernel at the node", partial_area<2>, partial_area<3>},
+        {"FA", "full area of cells whose node is in the ball", full_area<2>, full_area<3>, false,
+         full_area<1>},
+        {"LAMMPS", "full area with a ramp inside the horizon", lammps<2>, lammps<3>, false,
+         lammps<1>},
+        {"QWJ", "full area with a ramp across the horizon", qwj<2>, qwj<3>, false, qwj<1>},
+        {"PA-AC", "exact partial areas, kernel at the node", partial_area<2>, partial_area<3>,
+         false, partial_area<1>},
         {"IPA-AC",
          "exact partial areas, kernel at the centroid of ball and cell ('plumbline describe "
          "Methods/names': what of each model)",
-         improved_partial_area<2>, improved_partial_area<3>},
+         improved_partial_area<2>, improved_partial_area<3>, false, improved_partial_area<1>},
         {"IPA-AC-R2", "IPA-AC recalibrated to exact moments of degree 2", of_degree<2, 2>,
-         of_degree<3, 2>},
+         of_degree<3, 2>, false, of_degree<1, 2>},
         {"IPA-AC-R4", "IPA-AC recalibrated to exact moments of degree 4", of_degree<2, 4>,
-         of_degree<3, 4>},
-        {"OPT", "optimisation-based quadrature weights", optimisation_based<2>,
-         optimisation_based<3>},
+         of_degree<3, 4>, false, of_degree<1, 4>},
+        {"OPT",
+         "optimisation-based quadrature weights",
+         optimisation_based<2>,
+         optimisation_based<3>,
+         false,
+         {},
+         "its weights integrate s^2/|s|^3, which is not "
+         "integrable on a line"},
     };
     return table;
   }

@@ -11,7 +11,7 @@ namespace plumbline::meshfree
   // Every rule for one kernel: lattice_bonds(rule, kernel, h, backend) makes the bonds on a
   // lattice of size h, where all nodes share one family, Families(rule, kernel, cells, backend)
   // those on scattered nodes, where each cell has its own area A and size √A. In space, dim = 3,
-  // volumes take the place of areas.
+  // volumes take the place of areas, on a line, dim = 1, lengths.
 
   /// Full area: A for nodes in the ball, kernel at the node.
   /// Source: Silling & Askari 2005, doi:10.1016/j.compstruc.2004.11.026.
@@ -95,6 +95,8 @@ namespace plumbline::meshfree
     std::function<NeighbourhoodQuadrature<2>(const Kernel<2> &)> in_plane;
     std::function<NeighbourhoodQuadrature<3>(const Kernel<3> &)> in_space = {}; ///< empty: none
     bool is_scalar = false; ///< it has no weights for tensors
+    std::function<NeighbourhoodQuadrature<1>(const Kernel<1> &)> on_line = {}; ///< empty: none
+    std::string not_on_line = {}; ///< why there is none
   };
 
   /// All rules; a new one is one source file and one row here.

@@ -1,5 +1,6 @@
 #include "base/number_text.h"
 #include "scene/models/model.h"
+#include "scene/on_line.h"
 #include "scene/values.h"
 
 #include <cmath>
@@ -36,8 +37,8 @@ namespace plumbline::scene
       Capabilities can() const override
       {
         using C = Capability;
-        return of_meshes() | Capabilities{C::lattice, C::heterogeneous, C::nonlocal,
-                                          C::dynamic, C::cracks,        C::space};
+        return of_meshes() | Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic,
+                                          C::cracks,  C::line,          C::space};
       }
 
       std::map<std::string, Settings> templates() const override
@@ -95,9 +96,10 @@ namespace plumbline::scene
       std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
                                                              double horizon) const override
       {
-        const physics::LocalLimit limit = scene.domain.is_in_space()
-                                              ? kernel_in_space(scene, horizon).limit()
-                                              : kernel(scene, horizon).limit();
+        const physics::LocalLimit limit =
+            is_on_intervals(scene)       ? make_kernel_on_line(scene, horizon).limit()
+            : scene.domain.is_in_space() ? kernel_in_space(scene, horizon).limit()
+                                         : kernel(scene, horizon).limit();
         const auto speed = [&](double modulus)
         { return base::to_text(std::sqrt(modulus / scene.time.density), 6); };
         auto facts = derived_constants(scene, horizon);

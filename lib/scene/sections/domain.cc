@@ -2,6 +2,7 @@
 #include "base/text_file.h"
 #include "scene/keys.h"
 #include "scene/mesh_files.h"
+#include "scene/on_line.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
 
@@ -32,9 +33,11 @@ namespace plumbline::scene
     mesh_files = std::make_shared<MeshFiles>();
     keys.add(
         "dimension", dimension, count(1, 3),
-        "2: the plane. 1: a line, the first axis of the boxes; expressions depend on x and "
-        "have one component (transient analyses of Material/model = double well with "
-        "Domain/boundary = periodic). 3: space; expressions depend on x, y and z "
+        "2: the plane. 1: a line; expressions depend on x and have one component (static analyses "
+        "of scalar kernels on intervals, Domain/boxes = x0 : x1, with the kernels' constants of "
+        "one "
+        "dimension; transient analyses of Material/model = double well with Domain/boundary = "
+        "periodic on the first axis of the box). 3: space; expressions depend on x, y and z "
         "(static, transient and dispersion analyses and quasi-static fracture of linear models "
         "with Domain/mesh = lattice; static analyses on tetrahedra of a gmsh file).");
     keys.add(
@@ -43,17 +46,20 @@ namespace plumbline::scene
         {
           solid.include = to_cuboids(text);
           if (solid.include.empty())
-            boxes.include = to_boxes(text);
+            boxes.include = are_on_line(text) ? to_intervals(text) : to_boxes(text);
         },
         "The domain Omega: boxes 'x0, y0 : x1, y1' separated by ';'; in three dimensions 'x0, y0, "
-        "z0 : x1, y1, z1'. Distances between parallel sides must be multiples of every mesh size. "
+        "z0 : x1, y1, z1', in one dimension intervals 'x0 : x1'. Distances between parallel sides "
+        "must be multiples of every mesh size. "
         "[length]");
     keys.add(
         "holes", "", any_boxes(),
         [this](const std::string &text)
         {
           solid.exclude = to_cuboids(text);
-          boxes.exclude = solid.exclude.empty() ? to_boxes(text) : std::vector<geometry::Box>();
+          boxes.exclude = !solid.exclude.empty() ? std::vector<geometry::Box>()
+                          : are_on_line(text)    ? to_intervals(text)
+                                                 : to_boxes(text);
         },
         "Boxes removed from the domain, written like boxes. [length]");
     keys.add("mesh", mesh.name,

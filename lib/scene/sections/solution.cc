@@ -88,7 +88,8 @@ namespace plumbline::scene
   {
     keys.add(
         "fields", fields, yes_or_no(),
-        "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti).");
+        "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti; in "
+        "one dimension as a table of x and u, .csv).");
     keys.add(
         "points", points, any_text(),
         "CSV file with columns x and y (and z in three dimensions): points in the domain at which "

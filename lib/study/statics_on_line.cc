@@ -1,0 +1,386 @@
+#include "study/statics_on_line.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/number_text.h"
+#include "physics/gauss.h"
+#include "scene/on_line.h"
+#include "study/comparison.h"
+#include "study/preflight.h"
+#include "study/reference_estimate.h"
+#include "study/round_off.h"
+#include "study/solution_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace plumbline::study
+{
+  namespace
+  {
+    using ProblemOnLine = problem::Problem<1>;
+    using method::MethodOnIntervals;
+    using scene::Quantity;
+    using scene::Target;
+
+    const MethodOnIntervals *on_intervals(const Method &method)
+    {
+      return dynamic_cast<const MethodOnIntervals *>(&method);
+    }
+
+    /// Averages of a field over the cells of Ω: exact for polynomials of degree 15.
+    std::vector<double> cell_averages(const problem::Field<1> &field, const ProblemOnLine &problem)
+    {
+      constexpr unsigned int n_points = 8;
+      const auto &gauss = physics::gauss(n_points);
+      std::vector<double> result;
+      problem.lattice.for_each_cell(
+          [&](int cell)
+          {
+            double sum = 0;
+            for (unsigned int q = 0; q < n_points; ++q)
+              sum += gauss.weight(q) *
+                     field.value(
+                         dealii::Point<1>(problem.lattice.coordinate(cell + gauss.point(q)[0])), 0);
+            result.push_back(sum);
+          });
+      return result;
+    }
+
+    std::vector<double> values_at(const problem::Field<1> &field, const std::vector<double> &nodes)
+    {
+      std::vector<double> values;
+      for (const double x : nodes)
+        values.push_back(field.value(dealii::Point<1>(x), 0));
+      return values;
+    }
+
+    /// √(h Σ |a - b|²); b empty: 0.
+    double averages_l2(double h, const std::vector<double> &a, const std::vector<double> &b = {})
+    {
+      double squares = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        squares += std::pow(a[i] - (b.empty() ? 0 : b[i]), 2);
+      return std::sqrt(h * squares);
+    }
+
+    /// Averages over cells that are each made of two.
+    std::vector<double> of_pairs(const std::vector<double> &fine)
+    {
+      std::vector<double> result;
+      for (std::size_t i = 0; i + 1 < fine.size(); i += 2)
+        result.push_back((fine[i] + fine[i + 1]) / 2);
+      return result;
+    }
+
+    bool has_doubled(const ProblemOnLine &problem)
+    {
+      if (2 * problem.h() > problem.horizon() * (1 + 1e-9))
+        return false;
+      try
+      {
+        return at_spacing(problem, 2 * problem.h()).lattice.size() > 1;
+      }
+      catch (const InputError &) // ends that are no multiples of 2 h apart
+      {
+        return false;
+      }
+    }
+
+    /// How far the averages of a Galerkin solution may be wrong, by the changes to h/2 and from 2
+    /// h, as estimate_error() has them in the plane.
+    ErrorEstimate estimate_on_line(const Method &method, const ProblemOnLine &problem,
+                                   const SolutionOnLine &solution)
+    {
+      ErrorEstimate estimate;
+      estimate.method = method.name();
+      estimate.h = problem.h();
+      estimate.horizon = problem.horizon();
+      estimate.h_change = averages_l2(
+          problem.h(), solution.averages,
+          of_pairs(solve_on_line(method, at_spacing(problem, problem.h() / 2)).averages));
+      if (has_doubled(problem))
+        estimate.coarse_change = averages_l2(
+            2 * problem.h(), solve_on_line(method, at_spacing(problem, 2 * problem.h())).averages,
+            of_pairs(solution.averages));
+      const double q = contraction(estimate.coarse_change, estimate.h_change,
+                                   std::pow(.5, method.order())),
+                   size = averages_l2(problem.h(), solution.averages);
+      estimate.rate = -std::log2(q);
+      estimate.estimate = error_of_change(estimate.h_change, q) +
+                          solver_error(problem.settings.solver.tolerance, size);
+      estimate.p_change = estimate.field_p_change = not_fitted;
+      estimate.field_h_change = estimate.field_coarse_change = not_fitted;
+      estimate.field_rate = estimate.field_estimate = not_fitted;
+      estimate.certified_digits = certified_digits(estimate.estimate, size);
+      return estimate;
+    }
+
+    /// Nodes and the solution there, in order.
+    void write_csv(const SolutionOnLine &solution, const std::string &file)
+    {
+      constexpr int n_digits = 17;
+      std::vector<std::pair<double, double>> rows;
+      for (std::size_t i = 0; i < solution.nodes.size(); ++i)
+        rows.emplace_back(solution.nodes[i], solution.nodal[i]);
+      std::sort(rows.begin(), rows.end());
+      std::ofstream out(file);
+      out << "x,u\n";
+      for (const auto &[x, u] : rows)
+        out << base::to_text(x, n_digits) << ',' << base::to_text(u, n_digits) << '\n';
+      if (!out.flush())
+        throw InputError("cannot write '" + file + "'");
+    }
+
+    /// Cells of a block: a curve has at most 256 points.
+    int cells_per_point(int n)
+    {
+      constexpr int most_points = 256;
+      return (n + most_points - 1) / most_points;
+    }
+
+    /// The largest error of averages in each block of cells, and the solution's mean there.
+    ErrorMap curve_of(const ProblemOnLine &problem, const std::vector<double> &averages,
+                      const std::vector<double> &target)
+    {
+      const int n = problem.lattice.n_cells(), per_block = cells_per_point(n);
+      ErrorMap map;
+      map.quantity = "cell averages";
+      map.h = problem.h();
+      map.horizon = problem.horizon();
+      map.n_x = (n + per_block - 1) / per_block;
+      map.n_y = 1;
+      map.lower = {problem.lattice.coordinate(0), 0};
+      map.upper = {problem.lattice.coordinate(per_block * static_cast<double>(map.n_x)), 0};
+      map.values.assign(map.n_x, std::numeric_limits<double>::quiet_NaN());
+      BlockMeans means(map.values.size());
+      std::size_t place = 0;
+      problem.lattice.for_each_cell(
+          [&](int cell)
+          {
+            const auto block = static_cast<std::size_t>(cell / per_block);
+            means.add(block, &averages[place], 1);
+            map.values[block] =
+                std::fmax(map.values[block], std::abs(averages[place] - target[place]));
+            ++place;
+          });
+      map.solution = means.means();
+      return map;
+    }
+
+    /// A case of a level, and the averages that its solutions are held against.
+    struct CaseOnLine
+    {
+      std::string name;
+      ProblemOnLine problem;
+      std::optional<std::vector<double>> exact = {}, local = {}, reference = {};
+    };
+    using CasesOnLine = std::vector<CaseOnLine>;
+
+    /// All cases of a level on intervals.
+    class LevelOnLine
+    {
+    public:
+      LevelOnLine(const Place &place, const Methods &available, const StaticsOptions &options)
+          : place_(place), scene_(place.scene()), available_(available), options_(options),
+            cases_(place.shared<CasesOnLine>("cases on a line", [this] { return open_cases(); }))
+      {
+      }
+
+      Records run(const Method &method) const
+      {
+        Records records;
+        for (const CaseOnLine &one : cases_)
+        {
+          records.push_back(place_.record("statics", method));
+          records.back().key.problem = one.name;
+          place_.fill(records.back(), [&](Record &record)
+                      { evaluate(method, one, solve_on_line(method, one.problem), record); });
+        }
+        return records;
+      }
+
+    private:
+      CasesOnLine open_cases() const
+      {
+        CasesOnLine cases;
+        const auto names = scene_.problem.case_names();
+        for (unsigned int c = 0; c < names.size(); ++c)
+        {
+          CaseOnLine one{names[c], make_problem_on_line(scene_, c, place_.level())};
+          if (one.problem.solution)
+            one.exact = cell_averages(*one.problem.solution, one.problem);
+          if (one.problem.local_solution)
+            one.local = cell_averages(*one.problem.local_solution, one.problem);
+          if (scene_.reference.method)
+            one.reference = solve_reference(one);
+          cases.push_back(std::move(one));
+        }
+        return cases;
+      }
+
+      std::vector<double> solve_reference(const CaseOnLine &one) const
+      {
+        const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
+        const SolutionOnLine solution = solve_on_line(*method, one.problem);
+        if (scene_.reference.estimate == scene::Estimate::none)
+          return solution.averages;
+        const ErrorEstimate estimate =
+            placed(estimate_on_line(*method, one.problem, solution), place_, one.name);
+        place_.results().references.push_back(estimate);
+        const double size = averages_l2(one.problem.h(), solution.averages);
+        if (const double tolerance = scene_.reference.tolerance;
+            tolerance > 0 && !(estimate.estimate <= tolerance * size))
+        {
+          std::ostringstream message;
+          message << "the reference " << method->name() << " at h = " << one.problem.h()
+                  << " has an estimated error of " << estimate.estimate / size
+                  << " relative to the solution, more than Reference/tolerance = " << tolerance
+                  << "; take a smaller h, or a larger tolerance";
+          throw NumericalError(message.str());
+        }
+        return solution.averages;
+      }
+
+      void evaluate(const Method &method, const CaseOnLine &one, const SolutionOnLine &solution,
+                    Record &run) const
+      {
+        const ProblemOnLine &problem = one.problem;
+        run.cost = solution.cost;
+        run.set("variation", variation(1, solution.averages));
+        run.set("round-off", round_off_error(problem, solution.averages, solution.diagnostics));
+        run.set("area", problem.h() * static_cast<double>(problem.lattice.size()), "length");
+        set_diagnostics(run, solution.diagnostics);
+        for (const auto &[target, averages] :
+             {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
+              std::pair(Target::reference, &one.reference)})
+          if (*averages)
+            set_errors(run, Quantity::averages, target, solution.averages, **averages);
+        if (problem.solution)
+          set_errors(run, Quantity::nodal, Target::exact, solution.nodal,
+                     values_at(*problem.solution, solution.nodes));
+        if (problem.local_solution)
+          set_errors(run, Quantity::nodal, Target::local, solution.nodal,
+                     values_at(*problem.local_solution, solution.nodes));
+        if (!place_.is_finest())
+          return;
+        if (is_estimated(scene_, method))
+          place_.results().estimates.push_back(
+              placed(estimate_on_line(method, problem, solution), place_, one.name));
+        finish_series(one, solution, run);
+      }
+
+      /// What is done with a solution of the finest level: stored, and drawn for the first series.
+      void finish_series(const CaseOnLine &one, const SolutionOnLine &solution,
+                         const Record &run) const
+      {
+        if (options_.on_finest)
+          options_.on_finest([&](const std::string &stem) { write_csv(solution, stem + ".csv"); },
+                             run);
+        const auto &target = one.exact ? one.exact : one.reference;
+        if (!target || run.key.problem != cases_.back().name ||
+            place_.series().name != scene_.study.series.front().name)
+          return;
+        ErrorMap map = curve_of(one.problem, solution.averages, *target);
+        map.method = run.key.method;
+        map.problem = run.key.problem;
+        map.series = run.key.series;
+        map.size = size_of(run);
+        place_.results().maps.push_back(map);
+      }
+
+      /// Of the scene's norms; each value stands for an equal part of Ω.
+      void set_errors(Record &run, Quantity quantity, Target target,
+                      const std::vector<double> &found, const std::vector<double> &right) const
+      {
+        double largest = 0, squares = 0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+        {
+          largest = std::max(largest, std::abs(found[i] - right[i]));
+          squares += std::pow(found[i] - right[i], 2);
+        }
+        const double l2 = std::sqrt(squares * run["area"] / static_cast<double>(found.size()));
+        for (const scene::Norm norm : scene_.study.norms)
+          if (scene::quantity(norm) == quantity)
+          {
+            const std::string name = scene::DecisiveError{norm, target}.text();
+            if (!std::isfinite(squares)) // maxima lose NaN
+              throw NumericalError("the error " + name + " is not a finite number");
+            run.set(name, scene::is_largest(norm) ? largest : l2);
+          }
+      }
+
+      const Place &place_;
+      const scene::Scene &scene_;
+      const Methods &available_;
+      const StaticsOptions &options_;
+      const CasesOnLine &cases_;
+    };
+  } // namespace
+
+  SolutionOnLine solve_on_line(const Method &method, const ProblemOnLine &problem)
+  {
+    const base::MemoryGauge memory;
+    base::CpuTimer timer;
+    const auto discretisation = on_intervals(method)->discretise_on_intervals(problem);
+    const auto system = discretisation->tangent();
+    SolutionOnLine solution;
+    solution.cost.setup_seconds = timer.seconds();
+    timer.restart();
+    const auto data = discretisation->data(problem);
+    algebra::Vector u(data.load.size());
+    const auto &settings = problem.settings.solver;
+    const algebra::LinearSolve solved =
+        system->solve(u, data.load, {settings.tolerance, settings.max_iterations});
+    solution.cost.solve_seconds = timer.seconds();
+    solution.cost.n_unknowns = discretisation->n_unknowns();
+    solution.cost.n_bonds = solved.n_bonds;
+    solution.cost.n_iterations = solved.n_iterations;
+    solution.cost.peak_bytes = memory.peak_bytes();
+    static_cast<method::FieldOnLine &>(solution) = data.field(u);
+    solution.value = {}; // it needs the discretisation
+    solution.diagnostics = discretisation->diagnostics();
+    solution.diagnostics.relative_residual = solved.relative_residual;
+    solution.diagnostics.operator_backend = solved.backend;
+    return solution;
+  }
+
+  std::string refusal_on_line(const Method &method, const scene::Scene &scene,
+                              const Methods &available)
+  {
+    const physics::Kernel<1> kernel =
+        scene::make_kernel_on_line(scene, scene.study.series.front().levels.front().horizon);
+    const auto why_not = [&](const Method &one)
+    {
+      const MethodOnIntervals *on_line = on_intervals(one);
+      return on_line == nullptr ? std::string("it is not implemented on a line")
+                                : on_line->why_not_on_intervals(kernel);
+    };
+    const std::string why = why_not(method);
+    if (why.empty())
+      return why;
+    std::string others;
+    for (const auto &one : available)
+      if (one->is_in_all() && why_not(*one).empty() && one->family() == method.family())
+        others += (others.empty() ? "" : ", ") + one->name();
+    return why + " (Domain/dimension = 1)" +
+           (others.empty() ? "; take a meshfree rule or a Galerkin method" : "; take " + others);
+  }
+
+  void open_statics_on_line(const Place &place, const Methods &available,
+                            const StaticsOptions &options)
+  {
+    LevelOnLine(place, available, options);
+  }
+
+  Records statics_on_line(const Place &place, const Method &method, const Methods &available,
+                          const StaticsOptions &options)
+  {
+    return LevelOnLine(place, available, options).run(method);
+  }
+} // namespace plumbline::study
