@@ -1,6 +1,5 @@
 #include "driver/analyses.h"
-
-#include "app/command.h"
+#include "command.h"
 
 using namespace plumbline;
 
