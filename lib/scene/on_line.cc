@@ -93,8 +93,8 @@ namespace plumbline::scene
         "kernel of the same profile");
     needs(kernel.coefficient.empty() && kernel.materials.empty(),
           "Kernel/coefficient and Kernel/materials", "clear both");
-    check_domain(scene);
     check_analysis_of_line(scene);
+    check_domain(scene);
   }
 
   void check_without_y(const Scene &scene)

@@ -135,8 +135,8 @@ TEST(Motion, on_a_line_is_of_x_alone)
   refuse({{"Time/initial displacement", "sin(2*pi*x), 0"}}, "but the line needs 1");
   refuse({{"Domain/boundary", "constrained"}}, "needs Domain/boundary = periodic");
   refuse({{"Domain/dimension", "3"}}, "Domain/dimension");
-  expect_refused({{"Domain/dimension", "1"}}, "which is for transient analysis of double wells",
-                 false);
+  expect_refused({{"Domain/dimension", "1"}},
+                 "Domain/dimension = 1 does not support transient analyses", false);
 }
 
 TEST(Motion, of_meshes_has_no_room_for_a_dilatation_without_mass)
