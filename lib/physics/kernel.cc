@@ -260,7 +260,7 @@ namespace plumbline::physics
     else
     {
       // ½ ∫ C_11 ξ_2² = μ, and ½ ∫ C_11 ξ_1² = λ + 2μ = 3μ
-      alpha[dim - 1] = 2; // on a line, where there are no shear strains: ½ ∫ C ξ²
+      alpha[dim == 1 ? 0 : 1] = 2; // on a line, where there are no shear strains: ½ ∫ C ξ²
       limit.mu = limit.lambda = .5 * moment(alpha);
     }
     return limit;

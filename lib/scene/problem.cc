@@ -1,6 +1,7 @@
 #include "scene/problem.h"
 
 #include "base/cost.h"
+#include "base/error.h"
 #include "geometry/tetrahedral_domain.h"
 #include "problem/builder.h"
 #include "scene/damage.h"
@@ -110,6 +111,10 @@ namespace plumbline::scene
   Problem make_problem(const Scene &scene, unsigned int case_index, const Level &level, double t,
                        const Field *known_load, const Problem *same_place)
   {
+    if (is_on_intervals(scene))
+      throw InputError(
+          "Domain/dimension = 1 with Material/model = " + scene.material.model->name() +
+          " is for 'plumbline run' alone; write Domain/dimension = 2");
     const auto field = [&](const std::string &key, const std::string &text)
     {
       const Expression expression(key, text, scene.names(level.horizon, t));
