@@ -16,6 +16,7 @@ int main(int argc, char **argv)
   ours::register_families();
   ours::register_forces();
   ours::register_assembly();
+  ours::register_tetrahedra();
   benchmark::Initialize(&argc, argv);
   ours::Summary summary;
   benchmark::RunSpecifiedBenchmarks(&summary);

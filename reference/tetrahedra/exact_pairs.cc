@@ -58,48 +58,6 @@ namespace plumbline::reference
       return *face.face;
     }
 
-    /// Whether their projections on the line through their centres are at least a horizon (1)
-    /// apart.
-    bool are_out_of_reach(const PairFace &f, const PairFace &g)
-    {
-      const dealii::Tensor<1, 3> line = g.centre() - f.centre();
-      const double distance = line.norm();
-      if (distance < 1)
-        return false;
-      double last = -distance, first = 2 * distance; // along the line, from the centre of f
-      for (unsigned int k = 0; k < 3; ++k)
-      {
-        last = std::max(last, line * (f.vertices()[k] - f.centre()) / distance);
-        first = std::min(first, line * (g.vertices()[k] - f.centre()) / distance);
-      }
-      return first - last >= 1;
-    }
-
-    /// Makes edges that are parallel to the digits of double so to all digits, by a move of a
-    /// vertex of g by a rounding of its coordinates. Faces that are not parallel have at most
-    /// one such pair.
-    /// @return  whether there is one
-    template <class Real>
-    bool align(const FormFace<Real> &f, FormFace<Real> &g)
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-        {
-          const Vector<Real> a = f.edge(i), b = g.edge(j);
-          constexpr double alike = 1e-15;
-          if (g.is_shared_edge(j, f) || a.cross(b).norm() > alike * (a.norm() + b.norm()))
-            continue;
-          const Vector<Real> along = a * (a.dot(b) / a.dot(a));
-          const unsigned int end = FormFace<Real>::next(j);
-          if (f.shares(g.names[end]))
-            g.x[j] = g.x[end] - along;
-          else
-            g.x[end] = g.x[j] + along;
-          return true;
-        }
-      return false;
-    }
-
     double gap(const PairFace &f, const PairFace &g)
     {
       return f.centre().distance(g.centre()) - f.radius() - g.radius();
@@ -316,7 +274,15 @@ namespace plumbline::reference
     Places edge_rows, edge_columns, vertex_rows, vertices, faces;
     using Values = std::array<std::vector<SharedSum>, 2>; ///< of regular and compact functions
     Values of_edges, of_vertices, of_face;
-    std::vector<FormFace<double>> second; ///< measured, by faces' places
+    /// With its places in the tables' columns.
+    struct Second
+    {
+      std::array<Vector<double>, 3> x;
+      Vector<double> normal; ///< of length 1
+      std::array<unsigned int, 3> names{};
+      std::array<std::size_t, 3> edges{}, vertices{};
+    };
+    std::vector<Second> second; ///< by faces' places
 
     void look_at(const NumberedFace &f)
     {
@@ -429,8 +395,17 @@ namespace plumbline::reference
     t.second.clear();
     for (const NumberedFace *face : second)
     {
-      t.second.push_back(form_face<double>(*face));
-      t.second.back().measure();
+      FormFace<double> measured = form_face<double>(*face);
+      measured.measure();
+      Tables::Second &own = t.second.emplace_back();
+      own.x = measured.x;
+      own.normal = measured.normal;
+      own.names = measured.names;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        own.edges[k] = t.edge_columns[face->edges[k]];
+        own.vertices[k] = t.vertices[own.names[k]];
+      }
     }
     t.rare.clear();
     t.longer.clear();
@@ -524,6 +499,18 @@ namespace plumbline::reference
       for (unsigned int k = 0; k < 3; ++k)
         put(measured_.x[k], first_.x[k]);
       put(measured_.normal, first_.normal);
+      for (unsigned int kind = 0; kind < 2; ++kind)
+      {
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          rows_[kind].of_edges[k] =
+              &tables.of_edges[kind][tables.edge_rows[f.edges[k]] * tables.edge_columns.size()];
+          rows_[kind].of_vertices[k] =
+              &tables
+                   .of_vertices[kind][tables.vertex_rows[f.face->names()[k]] * tables.faces.size()];
+        }
+        rows_[kind].of_face = tables.of_face[kind].data();
+      }
     }
 
     /// How a pair is to be integrated.
@@ -558,6 +545,7 @@ namespace plumbline::reference
     }
 
   private:
+    using Second = Shared::Tables::Second;
     static constexpr unsigned int most_terms = 15;
     struct Terms
     {
@@ -591,20 +579,22 @@ namespace plumbline::reference
       to[2][lane] = from.z;
     }
 
-    const FormFace<double> &second(const NumberedFace &g) const
+    const Second &second(const NumberedFace &g) const
     {
       return tables_.second[tables_.faces[g.number]];
     }
 
     void set(const NumberedFace &other, unsigned int lane)
     {
-      const FormFace<double> &g = second(other);
+      const Second &g = second(other);
       unsigned int base = 0, base_of_first = 0;
       for (unsigned int k = 0; k < 3; ++k)
       {
         put(g.x[k], lanes_.x[k], lane);
         lanes_.is_own[k][lane] = measured_.shares(g.names[k]) ? 0 : 1;
-        lanes_.is_own_first[k][lane] = g.shares(measured_.names[k]) ? 0 : 1;
+        const unsigned int name = measured_.names[k];
+        const bool is_shared = g.names[0] == name || g.names[1] == name || g.names[2] == name;
+        lanes_.is_own_first[k][lane] = is_shared ? 0 : 1;
         if (lanes_.is_own[k][lane] == 0)
           base = k;
         if (lanes_.is_own_first[k][lane] == 0)
@@ -641,51 +631,51 @@ namespace plumbline::reference
       if (!is_general(lane))
         return Way::alone;
       const bool is_compact = (distance > compact_from) == is_usual_;
-      const FormFace<double> &g = second(other);
+      const std::size_t place = tables_.faces[other.number];
+      const Second &g = tables_.second[place];
       Terms &terms = terms_.emplace_back();
       terms.growth = lanes_.growth[lane];
+      const Rows &rows = rows_[is_compact ? 1 : 0];
       for (unsigned int i = 0; i < 3; ++i)
       {
         for (unsigned int j = 0; j < 3; ++j)
           if (const double factor = lanes_.edges[i][j][lane]; factor != 0)
-            terms.add(factor, edge_pair(i, g, j, is_compact));
+            terms.add(factor, edge_pair(rows.of_edges[i][g.edges[j]], i, g, j, is_compact));
         if (const double factor = lanes_.first[i][lane]; factor != 0)
-          terms.add(factor, first_vertex(i, g, is_compact));
+          terms.add(factor,
+                    vertex(rows.of_vertices[i][place], measured_.x[i], g.x, g.normal, is_compact));
         if (const double factor = lanes_.second[i][lane]; factor != 0)
-          terms.add(factor, second_vertex(g, i, is_compact));
+          terms.add(factor, vertex(rows.of_face[g.vertices[i]], g.x[i], measured_.x,
+                                   measured_.normal, is_compact));
       }
       return Way::batch;
     }
 
-    const SharedSum &edge_pair(unsigned int i, const FormFace<double> &g, unsigned int j,
+    const SharedSum &edge_pair(SharedSum &sum, unsigned int i, const Second &g, unsigned int j,
                                bool is_compact)
     {
-      SharedSum &sum = tables_.at_edges(f_.edges[i], g.edges[j], is_compact);
       if (!sum.is_known)
-        sums_.add_parallelogram(g.x[j] - measured_.x[i], measured_.edge(i), g.edge(j), is_compact,
-                                sum);
+        sums_.add_parallelogram(g.x[j] - measured_.x[i], measured_.edge(i),
+                                g.x[FormFace<double>::next(j)] - g.x[j], is_compact, sum);
       sum.is_known = true;
       return sum;
     }
-    const SharedSum &first_vertex(unsigned int k, const FormFace<double> &g, bool is_compact)
+    const SharedSum &vertex(SharedSum &sum, const Vector<double> &v,
+                            const std::array<Vector<double>, 3> &x, const Vector<double> &normal,
+                            bool is_compact)
     {
-      SharedSum &sum = tables_.at_first_vertex(measured_.names[k], g.number, is_compact);
-      const Vector<double> &v = measured_.x[k];
       if (!sum.is_known)
-        sums_.add_triangle({g.x[0] - v, g.x[1] - v, g.x[2] - v}, g.normal, is_compact, sum);
+        sums_.add_triangle({x[0] - v, x[1] - v, x[2] - v}, normal, is_compact, sum);
       sum.is_known = true;
       return sum;
     }
-    const SharedSum &second_vertex(const FormFace<double> &g, unsigned int k, bool is_compact)
+
+    /// Of a face, in the tables.
+    struct Rows
     {
-      SharedSum &sum = tables_.at_second_vertex(g.names[k], is_compact);
-      const std::array<Vector<double>, 3> &x = measured_.x;
-      const Vector<double> &v = g.x[k];
-      if (!sum.is_known)
-        sums_.add_triangle({x[0] - v, x[1] - v, x[2] - v}, measured_.normal, is_compact, sum);
-      sum.is_known = true;
-      return sum;
-    }
+      std::array<SharedSum *, 3> of_edges{}, of_vertices{};
+      SharedSum *of_face = nullptr;
+    };
 
     PlaneSums sums_;
     const NumberedFace &f_;
@@ -693,6 +683,7 @@ namespace plumbline::reference
     Shared::Tables &tables_;
     FormFace<double> measured_;
     FirstFace first_{};
+    std::array<Rows, 2> rows_; ///< of regular and compact functions
     PairLanes lanes_{};
     std::vector<Terms> terms_;
   };

@@ -67,6 +67,21 @@ namespace plumbline::reference
     area_ = .5 * cross_product_3d(vertices[1] - vertices[0], vertices[2] - vertices[0]).norm();
   }
 
+  bool are_out_of_reach(const PairFace &f, const PairFace &g)
+  {
+    const dealii::Tensor<1, 3> line = g.centre() - f.centre();
+    const double distance = line.norm();
+    if (distance < 1)
+      return false;
+    double last = -distance, first = 2 * distance; // along the line, from the centre of f
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      last = std::max(last, line * (f.vertices()[k] - f.centre()) / distance);
+      first = std::min(first, line * (g.vertices()[k] - f.centre()) / distance);
+    }
+    return first - last >= 1;
+  }
+
   FacePairs::FacePairs(const FacePotential &potential, unsigned int refinement)
       : potential_(potential), ends_(potential.ends()), refinement_(refinement)
   {

@@ -30,6 +30,9 @@ namespace plumbline::reference
     double radius_ = 0, area_ = 0;
   };
 
+  /// Whether their projections on the line through their centres are at least a horizon (1) apart.
+  bool are_out_of_reach(const PairFace &f, const PairFace &g);
+
   /// ∬_{F×G} f(|x - y|) of a FacePotential f, by quadrature in all four directions. Triangles that
   /// touch each other take the rules of Sauter & Schwab 2011, Boundary Element Methods, sec. 5.2,
   /// whose coordinates turn the singularity of 1/r into a smooth function; others products of

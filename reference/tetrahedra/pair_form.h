@@ -84,6 +84,31 @@ namespace plumbline::reference
     bool is_all_parallel() const { return is_parallel[0] && is_parallel[1] && is_parallel[2]; }
   };
 
+  /// Makes edges that are parallel to the digits of double so to all digits, by a move of a
+  /// vertex of g by a rounding of its coordinates. Faces that are not parallel have at most
+  /// one such pair.
+  /// @return  whether there is one
+  template <class Real>
+  bool align(const FormFace<Real> &f, FormFace<Real> &g)
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const Vector<Real> a = f.edge(i), b = g.edge(j);
+        constexpr double alike = 1e-15;
+        if (g.is_shared_edge(j, f) || a.cross(b).norm() > alike * (a.norm() + b.norm()))
+          continue;
+        const Vector<Real> along = a * (a.dot(b) / a.dot(a));
+        const unsigned int end = FormFace<Real>::next(j);
+        if (f.shares(g.names[end]))
+          g.x[j] = g.x[end] - along;
+        else
+          g.x[end] = g.x[j] + along;
+        return true;
+      }
+    return false;
+  }
+
   /// ∬_{F×G} f(|x - y|) for a radial potential f = Σ parts, exact. Three times the field of rays
   /// from a point makes an integral one over the boundary: with z = y - x and
   ///   4 g₁ + r g₁' = f,  3 g + r g' = g₁,

@@ -1,0 +1,245 @@
+// What exact integrals over pairs of faces are made of: numbers of two parts, whether faces see
+// each other, edges made parallel to all digits, and many pairs at a time against one at a time
+// with all digits. And that entries do not depend on the number of threads.
+#include "reference/tetrahedra/assembly.h"
+#include "reference/tetrahedra/exact_pairs.h"
+#include "reference/tetrahedra/pair_form.h"
+#include "reference/tetrahedra/two_part_number.h"
+
+#include <deal.II/base/multithread_info.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+  using namespace plumbline;
+  using namespace plumbline::reference;
+  using dealii::Point;
+  using Kind = FacePotential::Kind;
+  using Triangle = PairFace::Vertices;
+  using Two = TwoPartNumber<double>;
+  using Quad = TwoPartNumber<long double>;
+
+  double uniform(std::mt19937 &random)
+  {
+    return 2 * (random() / 4294967296.) - 1;
+  }
+
+  Triangle random_triangle(std::mt19937 &random, const Point<3> &centre, double size)
+  {
+    Triangle result;
+    for (Point<3> &x : result)
+      for (unsigned int d = 0; d < 3; ++d)
+        x[d] = centre[d] + size * uniform(random);
+    return result;
+  }
+
+  FormFace<Quad> quad_face(const Triangle &x, const std::array<unsigned int, 3> &names)
+  {
+    FormFace<Quad> face;
+    for (unsigned int k = 0; k < 3; ++k)
+      face.x[k] = {Quad(x[k][0]), Quad(x[k][1]), Quad(x[k][2])};
+    face.names = names;
+    return face;
+  }
+
+  /// Sides numbered anew.
+  NumberedFace numbered(const PairFace &face, unsigned int number)
+  {
+    NumberedFace result;
+    result.face = &face;
+    result.number = number;
+    for (unsigned int k = 0; k < 3; ++k)
+      result.edges[k] = 3 * number + k;
+    return result;
+  }
+
+  /// A face, and others of all sorts: far and near, with shared vertices and sides, parallel or
+  /// nearly so, and itself.
+  std::vector<PairFace> some_faces(unsigned int n)
+  {
+    std::mt19937 random(3);
+    const Triangle x = {Point<3>(0, 0, 0), Point<3>(.3, .02, .1), Point<3>(.1, .3, 0)};
+    std::vector<PairFace> faces = {PairFace(x, {0, 1, 2})};
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const Point<3> centre(.9 * uniform(random), .9 * uniform(random), .9 * uniform(random));
+      Triangle y = random_triangle(random, centre, .2);
+      std::array<unsigned int, 3> names = {3 * k + 3, 3 * k + 4, 3 * k + 5};
+      const unsigned int sort = k % 5, n_shared = sort < 2 ? sort + 1 : 0;
+      for (unsigned int j = 0; j < n_shared; ++j)
+      {
+        y[j] = x[j];
+        names[j] = j;
+      }
+      if (sort == 2)
+        for (unsigned int j = 0; j < 3; ++j)
+          y[j] = Point<3>(x[j] + centre + (k % 2) * 1e-3 * Point<3>(0, uniform(random), 0));
+      faces.emplace_back(y, names);
+    }
+    return faces;
+  }
+} // namespace
+
+TEST(TwoPartNumbers, keep_twice_the_digits)
+{
+  const double tiny = 1e-25;
+  EXPECT_EQ(static_cast<double>(Two(1) + Two(tiny) - Two(1)), tiny);
+  const double small = std::ldexp(1., -45);
+  EXPECT_EQ(static_cast<double>((Two(1) + Two(small)) * (Two(1) - Two(small)) - Two(1)),
+            -small * small);
+  std::mt19937 random(1);
+  const double unit = std::ldexp(1., -Two::digits);
+  for (unsigned int n = 0; n < 1000; ++n)
+  {
+    const Two a = Two(2 + uniform(random)) + Two(1e-17 * uniform(random)),
+              b = Two(2 + uniform(random)) + Two(1e-17 * uniform(random));
+    const double size = static_cast<double>(a * b);
+    EXPECT_LE(std::abs(static_cast<double>(a / b * b - a)), unit * size);
+    EXPECT_LE(std::abs(static_cast<double>(sqrt(a) * sqrt(a) - a)), unit * size);
+    EXPECT_LE(std::abs(static_cast<double>((a + b) * (a - b) - (a * a - b * b))), 4 * unit * size);
+    EXPECT_LE(std::abs(static_cast<double>(log(a * b) - log(a) - log(b))), unit * size);
+    EXPECT_EQ(a < b, static_cast<double>(a - b) < 0);
+  }
+}
+
+TEST(TwoPartNumbers, know_logarithms_and_angles)
+{
+  const double pi = 3.141592653589793116, rest_of_pi = 1.2246467991473531772e-16;
+  EXPECT_NEAR(static_cast<double>(Two(4) * atan2(Two(1), Two(1)) - Two(pi)), rest_of_pi, 1e-30);
+  const double log_of_2 = .6931471805599453094, rest = 2.3190468138462995584e-17;
+  EXPECT_NEAR(static_cast<double>(log(Two(2)) - Two(log_of_2)), rest, 1e-31);
+  EXPECT_EQ(static_cast<double>(abs(Two(-1) - Two(1e-20)) - Two(1)), 1e-20);
+}
+
+TEST(FacesOutOfReach, are_those_whose_projections_are_a_horizon_apart)
+{
+  std::mt19937 random(2);
+  unsigned int n_apart = 0, n_near = 0;
+  for (unsigned int n = 0; n < 2000; ++n)
+  {
+    const Triangle x = random_triangle(random, {}, .3),
+                   y = random_triangle(random, {1.3 + .3 * uniform(random), .2, .1}, .3);
+    const bool is_apart = are_out_of_reach(PairFace(x, {0, 1, 2}), PairFace(y, {3, 4, 5}));
+    EXPECT_EQ(is_apart, are_out_of_reach(PairFace(y, {3, 4, 5}), PairFace(x, {0, 1, 2})));
+    double least = 10;
+    for (unsigned int j = 0; j < 64; ++j) // points of both
+    {
+      const double a = (j % 4) / 3., b = (1 - a) * (j / 16) / 3., c = (j / 4 % 4) / 3.;
+      const Point<3> p(x[0] + a * (x[1] - x[0]) + b * (x[2] - x[0])),
+          q(y[0] + c * (y[1] - y[0]) + (1 - c) * b * (y[2] - y[0]));
+      least = std::min(least, p.distance(q));
+    }
+    ++(is_apart ? n_apart : n_near);
+    if (is_apart)
+    {
+      EXPECT_GE(least, 1);
+    }
+  }
+  EXPECT_GT(n_apart, 100u);
+  EXPECT_GT(n_near, 100u);
+  const Triangle x = {Point<3>(0, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
+  for (const double gap : {.999, 1.001})
+  {
+    Triangle y = x;
+    for (Point<3> &p : y)
+      p[0] += gap;
+    EXPECT_EQ(are_out_of_reach(PairFace(x, {0, 1, 2}), PairFace(y, {3, 4, 5})), gap > 1);
+  }
+}
+
+TEST(ParallelEdges, become_so_to_all_digits)
+{
+  const Triangle x = {Point<3>(.1, .2, .3), Point<3>(.4, .5, .7), Point<3>(.2, .9, .1)};
+  Triangle y = {Point<3>(.7, .1, .3), Point<3>(.2, .3, .8), Point<3>(0, 0, 0)};
+  y[2] = Point<3>(y[1] + (x[1] - x[0]) / 3.); // rounded
+  for (const bool is_shared : {false, true})
+  {
+    const FormFace<Quad> f = quad_face(x, {0, 1, 2});
+    const FormFace<Quad> before = quad_face(y, {3, 4, is_shared ? 2u : 5u});
+    FormFace<Quad> g = before;
+    ASSERT_TRUE(align(f, g));
+    EXPECT_LT(static_cast<double>(f.edge(0).cross(g.edge(1)).norm()), 1e-36);
+    EXPECT_GT(static_cast<double>(f.edge(0).cross(before.edge(1)).norm()), 1e-20);
+    // one vertex moves by a rounding, and it is none that both have
+    double change = 0;
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      const auto moved = static_cast<double>((g.x[k] - before.x[k]).norm());
+      EXPECT_TRUE(moved == 0 || k == (is_shared ? 1 : 2));
+      change += moved;
+    }
+    EXPECT_GT(change, 0);
+    EXPECT_LT(change, 1e-15);
+  }
+  y[2] = Point<3>(y[2] + Point<3>(0, 1e-12, 0));
+  FormFace<Quad> g = quad_face(y, {3, 4, 5});
+  EXPECT_FALSE(align(quad_face(x, {0, 1, 2}), g));
+}
+
+TEST(ManyPairs, are_those_with_all_digits_up_to_their_bounds)
+{
+  const std::vector<PairFace> faces = some_faces(30);
+  std::vector<NumberedFace> all;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
+  std::vector<const NumberedFace *> others;
+  for (const NumberedFace &face : all)
+    others.push_back(&face);
+  constexpr double tolerance = 1e-17;
+  for (const std::string type : {"constant", "1/r"})
+    for (const Kind kind : {Kind::biharmonic, Kind::harmonic})
+    {
+      const auto kernel =
+          physics::Kernel<3>::with_diffusion(physics::kernel_type(type).profile, 1, 1);
+      const ExactPairs exact(kernel, kind, tolerance);
+      ExactPairs::Shared shared;
+      shared.start({others.front()}, others);
+      std::vector<ExactPairs::Integral> integrals;
+      exact(all.front(), others, shared, integrals);
+      std::array<unsigned int, 4> n_level{};
+      for (std::size_t k = 0; k < faces.size(); ++k)
+      {
+        EXPECT_LE(integrals[k].error, tolerance);
+        // the bound is that of sums; values are rounded, and small ones are of faces about a
+        // horizon apart, whose round-off is another
+        const double value = exact.precise(faces.front(), faces[k]);
+        EXPECT_NEAR(integrals[k].value, value,
+                    integrals[k].error + 4e-16 * std::abs(value) + 1e-3 * tolerance)
+            << type << " " << k;
+        ++n_level[integrals[k].level];
+      }
+      EXPECT_GT(n_level[0], 5u);
+      EXPECT_GT(n_level[1], 3u);
+    }
+}
+
+TEST(ManyPairs, are_the_same_on_any_number_of_threads)
+{
+  const auto moved = geometry::with_moved_vertices(
+      geometry::six_per_cube({{{{Point<3>(), Point<3>(2, 2, 2)}}, {}}, 1}, 1), .2, 1);
+  const TetrahedralSpace space(std::make_shared<const TetrahedralMesh>(moved), true);
+  const auto kernel =
+      physics::Kernel<3>::with_diffusion(physics::kernel_type("constant").profile, .6, 1);
+  const unsigned int before = dealii::MultithreadInfo::n_threads();
+  std::vector<std::vector<double>> values;
+  std::vector<FaceRuleUse> uses;
+  for (const unsigned int n_threads : {1, 2, 5})
+  {
+    dealii::MultithreadInfo::set_thread_limit(n_threads);
+    uses.emplace_back();
+    values.push_back(
+        assemble_by_faces(space, kernel, space.n_free(), FaceRule::exact(), &uses.back()).value);
+  }
+  dealii::MultithreadInfo::set_thread_limit(before);
+  ASSERT_FALSE(values.front().empty());
+  for (std::size_t k = 1; k < values.size(); ++k)
+  {
+    EXPECT_EQ(values[k], values.front());
+    EXPECT_EQ(uses[k].n_pairs, uses.front().n_pairs);
+    EXPECT_EQ(uses[k].error, uses.front().error);
+  }
+}
