@@ -255,7 +255,7 @@ namespace plumbline::study
 
   std::shared_ptr<const Method> fracture_method(const std::string &name, const Methods &available)
   {
-    std::string known;
+    std::string known, corrected;
     for (const auto &method : available)
       if (method->fracture_solver() != nullptr)
       {
@@ -264,9 +264,13 @@ namespace plumbline::study
         if (method->is_in_all())
           known += (known.empty() ? "" : ", ") + method->name();
       }
+      else if (method->name() == name && method->family() == method::MethodFamily::meshfree)
+        corrected = "' corrects bonds of bodies that stay whole; take one of ";
     throw InputError("Methods/names = '" + name +
-                     "' is no meshfree rule, but cracks are open to those alone (Galerkin "
-                     "fields would need jumps); take one of " +
+                     (!corrected.empty()
+                          ? corrected
+                          : "' is no meshfree rule, but cracks are open to those "
+                            "alone (Galerkin fields would need jumps); take one of ") +
                      known);
   }
 

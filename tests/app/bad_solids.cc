@@ -272,3 +272,24 @@ TEST_F(BadBodies, meshes_that_are_no_body_are_refused)
   const auto outcomes = run({{mesh("body.geo") + no_reference, {}}});
   EXPECT_EQ(outcomes[0].exit_code, 0) << outcomes[0].err;
 }
+
+TEST_F(BadSolids, surface_corrections_are_for_free_bodies_of_bonds)
+{
+  const std::string scenes = "run " + std::string(PLUMBLINE_SCENES),
+                    corrected = scenes + "/state_based/surface_corrections.prm --levels 1 --set "
+                                         "Methods/names=FA+mirror";
+  expect_refused(
+      scenes + "/state_based/bar.prm --set Methods/names=FA+volume",
+      "'FA+volume' cannot do this scene: Material/model = variational with its dilatation");
+  expect_refused(scenes + "/check/check.prm --set Methods/names=FA+volume",
+                 "'FA+volume' cannot do this scene: Domain/mesh = lattice");
+  expect_refused(
+      scenes + "/check/check.prm --set Methods/names=FA+volume --set "
+               "Domain/mesh=squares",
+      "it corrects bonds near the free surfaces of bodies; write Domain/boundary = free");
+  expect_refused(corrected + " --set Domain/mesh=squares --set "
+                             "'Domain/holes=0.75, -0.0625 : 0.875, 0.0625'",
+                 "fictitious nodes (methods +mirror) are those of one box");
+  expect_refused(corrected + " --set Study/m=12", "the horizon of 12 h reaches across the box");
+  expect_refused(corrected + "s", "'FA+mirrors' is not known");
+}

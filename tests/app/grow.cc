@@ -442,4 +442,6 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Fracture/ties=-1"), "Fracture/ties");
   expect_refused(set("Expected/growth=holes: 3"), "the quantity one of broken bonds");
   expect_refused(body + "--methods Q1", "'Q1' is no meshfree rule");
+  expect_refused(body + "--methods FA+energy",
+                 "'FA+energy' corrects bonds of bodies that stay whole; take one of FA, LAMMPS");
 }
