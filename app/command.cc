@@ -124,6 +124,8 @@ namespace plumbline::app
       return 0;
     }
 
+    constexpr auto pdf_help = "Draw charts and maps as PDF, too, beside the SVG files";
+
     void add_run(CLI::App &app, Request &request)
     {
       const auto options = std::make_shared<RunOptions>();
@@ -143,6 +145,7 @@ namespace plumbline::app
       run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
       run.add_flag("--quiet", options->quiet, "Print nothing but errors");
       run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
+      run.add_flag("--pdf", options->pdf, pdf_help);
       run.add_flag("--estimate", options->is_estimate,
                    "Print the estimated peak memory of each rank by method and level, and exit "
                    "without running");
@@ -185,6 +188,7 @@ namespace plumbline::app
       check.add_flag("--quiet", options->quiet,
                      "Print nothing but errors, write nothing without -o");
       check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
+      check.add_flag("--pdf", options->pdf, pdf_help);
       set_action(check, request, options, driver::check, true);
     }
 
@@ -230,6 +234,7 @@ namespace plumbline::app
           ->check(CLI::Range(1u, most_levels));
       command.add_flag("--quiet", options.quiet, "Print nothing but errors");
       command.add_flag("--json", options.json, "Print " + name + ".json instead of the table");
+      command.add_flag("--pdf", options.pdf, pdf_help);
       return command;
     }
 
@@ -415,10 +420,13 @@ namespace plumbline::app
 
     void add_words(CLI::App &app, Request &request)
     {
+      const auto is_pdf = std::make_shared<bool>(false);
       add_word(app, request, "report",
                "Rebuild tables, charts and page from the numbers of a run, also of one that was "
                "killed",
-               "DIR", "Output folder of a run", rebuild_report);
+               "DIR", "Output folder of a run",
+               [=](const std::string &folder) { return driver::rebuild_report(folder, *is_pdf); });
+      app.get_subcommand("report")->add_flag("--pdf", *is_pdf, pdf_help);
       const auto as_matrix = std::make_shared<bool>(false);
       add_word(app, request, "list",
                "List methods, models, analyses, kernels, scenes or certified problems", "WHAT",

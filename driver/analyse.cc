@@ -11,7 +11,9 @@
 #include "io/point_vtu.h"
 #include "io/record_journal.h"
 #include "io/results_json.h"
+#include "report/counted.h"
 #include "report/formats.h"
+#include "report/pdf.h"
 
 #include <algorithm>
 #include <fstream>
@@ -164,6 +166,8 @@ namespace plumbline::driver
       throw InputError(
           "--budget is negative; give CPU seconds of one method at one level, or leave "
           "it out");
+    if (options.pdf)
+      report::require_pdf();
     const bool is_talking = !options.quiet && base::Communicator::all().rank() == 0;
     std::optional<base::ProgressLine> progress(is_talking);
     const fs::path folder = output_folder(options, scene);
@@ -187,8 +191,8 @@ namespace plumbline::driver
     if (!task.note.empty() && task.ranks.rank() == 0)
       std::cerr << "note: " << task.note << '\n';
     if (!control.earlier.records.empty() && is_talking)
-      std::cerr << "continuing: " << control.earlier.records.size() << " records are in '"
-                << journal_file.string() << "' already\n";
+      std::cerr << "continuing: " << report::counted(control.earlier.records.size(), "record")
+                << " in '" << journal_file.string() << "' already\n";
     const auto write_all_fields = [&](const study::Records &records)
     { write_fields(records, scene, options.n_levels, folder / analysis.name); };
     control.on_made = [&](const study::StudyResults &made)
@@ -206,13 +210,21 @@ namespace plumbline::driver
     progress.emplace(is_talking);
     control.on_progress = [&](const std::string &what, double fraction)
     { progress->show(what, fraction); };
-    base::on_first_rank(task.ranks, [&] { write_all_fields(control.earlier.records); });
+    base::on_first_rank(task.ranks,
+                        [&]
+                        {
+                          write_all_fields(control.earlier.records);
+                          if (task.take_over)
+                            task.take_over(control.earlier);
+                        });
     const study::StudyResults results = run_study(analysis, scene, methods, control);
     progress.reset();
     base::on_first_rank(task.ranks,
                         [&]
                         {
                           write_pages(task, results, folder);
+                          if (options.pdf)
+                            report::draw_pdf(folder);
                           if (results.is_complete)
                             journal.remove();
                         });

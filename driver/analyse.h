@@ -28,7 +28,9 @@ namespace plumbline::driver
         summary = {};
     std::string file = analysis.name; ///< the stem of its journal and numbers
     bool goes_on = true;              ///< from what an interrupted command has left
-    bool has_checkpoint = false;      ///< see study::Checkpoints
+    /// Receives that, on the first rank.
+    std::function<void(const study::StudyResults &earlier)> take_over = {};
+    bool has_checkpoint = false;                            ///< see study::Checkpoints
     base::Communicator ranks = base::Communicator::alone(); ///< that share the work
     std::map<std::string, std::string> provenance = {};     ///< besides versions and machine
     std::string note = {};                                  ///< for people, before it begins

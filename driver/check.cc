@@ -15,6 +15,7 @@
 #include "io/output_folder.h"
 #include "physics/kernel.h"
 #include "reference/method.h"
+#include "report/pdf.h"
 #include "scene/models/model.h"
 #include "scene/scene_keys.h"
 #include "scene/values.h"
@@ -107,6 +108,8 @@ namespace plumbline::driver
       const io::OutputFolder output(folder, {"check", scene.name, scene.text},
                                     base::Communicator::alone());
       write();
+      if (options.pdf)
+        report::draw_pdf(folder);
     }
 
     int show_series(const scene::Scene &scene, const CheckOptions &options,
@@ -173,6 +176,8 @@ namespace plumbline::driver
     end_at_interrupts();
     const CheckOptions options = with_defaults(given);
     const check::Requirements required = check::parse_requirements(options.required);
+    if (options.pdf)
+      report::require_pdf();
     refuse_other_bodies(options);
     SceneOptions input;
     input.scene_file = options.scene_file;

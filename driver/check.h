@@ -9,6 +9,7 @@ namespace plumbline::driver
     std::string output;                ///< folder; empty: results/check_NAME of the scene
     std::vector<std::string> required; ///< see check::parse_requirements; empty: ac
     bool quiet = false, json = false;  ///< with either of them files are written with -o only
+    bool pdf = false;                  ///< maps as PDF, besides SVG
   };
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,

@@ -13,6 +13,7 @@
 #include "report/formats.h"
 #include "report/frames.h"
 #include "report/memory_text.h"
+#include "report/pdf.h"
 #include "report/report.h"
 #include "report/statics_summary.h"
 #include "scene/capabilities.h"
@@ -89,6 +90,9 @@ namespace plumbline::driver
                                         statics_options(scene, folder, communicator, points))};
       task.command = "run";
       task.file = "results";
+      if (points.is_wanted())
+        task.take_over = [folder, &points](const study::StudyResults &earlier)
+        { points.take_over(earlier, folder / "points"); };
       task.write = report::write_report;
       task.summary = report::statics_summary;
       task.ranks = communicator;
@@ -238,12 +242,16 @@ namespace plumbline::driver
                    options, scene);
   }
 
-  int rebuild_report(const std::string &folder)
+  int rebuild_report(const std::string &folder, bool is_pdf)
   {
+    if (is_pdf)
+      report::require_pdf();
     const study::StudyResults results = io::results_in(folder);
     const io::OutputFolder output(folder, {"run", results.scene_name, results.scene_text},
                                   base::Communicator::alone());
     report::write_report(results, folder);
+    if (is_pdf)
+      report::draw_pdf(folder);
     std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';
     return 0;
   }

@@ -18,5 +18,6 @@ namespace plumbline::driver
   int run(const RunOptions &options);
 
   /// Rebuild tables, charts and page of a folder from its results.
-  int rebuild_report(const std::string &folder);
+  /// @param is_pdf  charts as PDF, besides SVG
+  int rebuild_report(const std::string &folder, bool is_pdf);
 } // namespace plumbline::driver

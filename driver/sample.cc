@@ -9,7 +9,9 @@
 #include "driver/interrupts.h"
 #include "driver/methods.h"
 #include "io/output_folder.h"
+#include "report/counted.h"
 #include "report/formats.h"
+#include "report/pdf.h"
 #include "report/sample_files.h"
 #include "report/sampling_page.h"
 #include "study/growth_analysis.h"
@@ -177,8 +179,8 @@ namespace plumbline::driver
         }
       const bool is_talking = !options.quiet && communicator.rank() == 0;
       if (is_talking && due.size() < plan.values.size() && communicator.n_ranks() == 1)
-        std::cerr << "continuing: " << plan.values.size() - due.size() << " samples are in '"
-                  << folder.string() << "' already\n";
+        std::cerr << "continuing: " << report::counted(plan.values.size() - due.size(), "sample")
+                  << " in '" << folder.string() << "' already\n";
       if (is_talking && study::is_growth(scene))
         tell_size(scene, due.size(), n_jobs, communicator.n_ranks());
       base::ProgressLine progress(is_talking);
@@ -213,6 +215,8 @@ namespace plumbline::driver
   {
     if (!options.is_worker)
       end_at_interrupts();
+    if (options.pdf)
+      report::require_pdf();
     const scene::Scene scene = read(options);
     const study::SamplingPlan plan = study::make_sampling_plan(scene);
     const fs::path folder = output_folder(options, scene);
@@ -240,6 +244,8 @@ namespace plumbline::driver
         conclude_samples(scene, plan, [&](std::size_t i) { return files.read(i); });
     const std::vector<std::string> faults = sampling_faults(results, scene.expected);
     report::write_sampling(results, faults, folder);
+    if (options.pdf)
+      report::draw_pdf(folder);
     if (options.json)
       std::cout << report::sampling_json(results);
     else if (!options.quiet)

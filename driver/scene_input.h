@@ -16,6 +16,7 @@ namespace plumbline::driver
     std::string methods; ///< comma separated, instead of the scene's; empty: those
     unsigned int n_levels = 0;
     bool quiet = false, json = false;
+    bool pdf = false; ///< charts as PDF, besides SVG
   };
 
   /// The scene with its overrides, and names of methods as the methods write them.

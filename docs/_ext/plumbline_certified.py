@@ -74,7 +74,8 @@ def field(name, values, certificate, work, program):
     run(["plumbline", "run", f"scenes/certified/{name}.prm", "--levels", "1", "--methods",
          certificate["galerkin"]["method"], "--set", "Reference/estimate=none", "--set", f"Output/points={points}",
          "--quiet", "-o", str(folder / "run")], work, program)
-    found = sorted((folder / "run" / "points").glob("*_level1.csv"))
+    found = sorted(file for file in (folder / "run" / "points").glob("*_level1.csv")
+                   if not file.name.endswith("_reference_level1.csv"))
     if len(found) != 1:
         raise CommandFailed(f"{name}: {len(found)} files of values at points")
     with found[0].open(encoding="utf-8") as lines:

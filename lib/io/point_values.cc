@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace plumbline::io
@@ -60,6 +61,14 @@ namespace plumbline::io
         '_');
     return name;
   }
+
+  namespace
+  {
+    fs::path file_of(const analysis::Record &run, const fs::path &folder)
+    {
+      return folder / (file_stem(run) + "_level" + std::to_string(run.key.level + 1) + ".csv");
+    }
+  } // namespace
 
   PointValues::PointValues(const scene::Scene &scene)
   {
@@ -153,14 +162,66 @@ namespace plumbline::io
                      place + ") lies outside of the domain; take it out");
   }
 
+  std::vector<double> PointValues::values_in(const fs::path &file) const
+  {
+    const char *const axes[] = {"x", "y", "z"};
+    const std::size_t dimension = points_.front().size();
+    base::Csv csv(file.string(), {axes, axes + dimension});
+    std::vector<std::string> columns;
+    for (const std::string name : {"u", "u1", "u2", "u3"})
+      if (csv.has(name))
+        columns.push_back(name);
+    std::vector<double> values;
+    std::size_t n = 0;
+    for (; csv.next(); ++n)
+    {
+      for (std::size_t d = 0; d < dimension; ++d)
+        if (n >= points_.size() || csv.number(axes[d]) != points_[n][d])
+          return {};
+      for (const std::string &name : columns)
+        values.push_back(csv.number(name));
+    }
+    return n == points_.size() ? values : std::vector<double>{};
+  }
+
+  void PointValues::take_over(const study::StudyResults &earlier, const fs::path &folder)
+  {
+    const auto take = [&](const analysis::Record &run)
+    {
+      try
+      {
+        const std::vector<double> values = values_in(file_of(run, folder));
+        if (!values.empty())
+          levels_[file_stem(run)][run.key.level] = values;
+      }
+      catch (const InputError &) // without it the next level has no change
+      {
+      }
+    };
+    for (const analysis::Record &run : earlier.records)
+      if (run.failure.empty())
+        take(run);
+    for (const study::ErrorEstimate &reference : earlier.references)
+    {
+      analysis::Record run;
+      run.key.method = study::reference_name;
+      run.key.problem = reference.problem;
+      run.key.series = reference.series;
+      run.key.level = reference.level;
+      take(run);
+    }
+  }
+
   void PointValues::write(const study::ValuesAtPoints &found, const analysis::Record &run,
                           const fs::path &folder)
   {
     const unsigned int n = found.n_components;
-    const std::string name = file_stem(run);
-    std::vector<double> &before = before_[name];
+    auto &levels = levels_[file_stem(run)];
+    const auto finer = levels.lower_bound(run.key.level);
+    const std::vector<double> before =
+        finer == levels.begin() ? std::vector<double>{} : std::prev(finer)->second;
     fs::create_directories(folder);
-    const fs::path file = folder / (name + "_level" + std::to_string(run.key.level + 1) + ".csv");
+    const fs::path file = file_of(run, folder);
     std::ofstream out(file);
     out.precision(std::numeric_limits<double>::max_digits10);
     write_header(out, points_.front().size(), n, !found.exact.empty(), !before.empty(),
@@ -198,6 +259,6 @@ namespace plumbline::io
     if (!out.flush())
       throw InputError("cannot write all of '" + file.string() +
                        "'; free some space, or give another output folder (-o)");
-    before = found.values;
+    levels[run.key.level] = found.values;
   }
 } // namespace plumbline::io

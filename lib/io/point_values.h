@@ -4,6 +4,7 @@
 #include "problem/in_space.h"
 #include "problem/problem.h"
 #include "scene/scene.h"
+#include "study/study_results.h"
 #include "study/values_at_points.h"
 
 #include <filesystem>
@@ -32,9 +33,14 @@ namespace plumbline::io
     std::vector<dealii::Point<2>> of(const problem::Problem<2> &problem) const;
     std::vector<dealii::Point<3>> of(const problem::Problem<3> &problem) const;
 
+    /// Reads what an interrupted run has written of the levels that it had finished. A file that is
+    /// missing, or is of other points, is passed over.
+    /// @param folder  as of write()
+    void take_over(const study::StudyResults &earlier, const std::filesystem::path &folder);
+
     /// Writes coordinates and u; the exact solution and the error, if the solution is known; the
-    /// change of u from the level before, if this object has written that level; the estimated
-    /// error, if there is one. Numbers read back to the same bits.
+    /// change of u from the level before, if this object has written or taken over one; the
+    /// estimated error, if there is one. Numbers read back to the same bits.
     /// @param folder  of the files, made if it is not there
     /// @throws InputError  a file that cannot be written
     void write(const study::ValuesAtPoints &found, const analysis::Record &run,
@@ -45,11 +51,13 @@ namespace plumbline::io
     in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
     void read(bool is_in_space);
+    /// u in such a file, shape (n_points, n_components); empty where it is of other points.
+    std::vector<double> values_in(const std::filesystem::path &file) const;
 
     std::string file_, key_;                  ///< key_: "Output/points = FILE: ", for messages
     std::vector<std::vector<double>> points_; ///< in the scene's coordinates, two or three of each
     std::vector<std::size_t> lines_;
-    /// By case, series and method: u at the level before, shape (n_points, n_components).
-    std::map<std::string, std::vector<double>> before_;
+    /// By case, series and method, and by level: u, shape (n_points, n_components).
+    std::map<std::string, std::map<unsigned int, std::vector<double>>> levels_;
   };
 } // namespace plumbline::io

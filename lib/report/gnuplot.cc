@@ -1,6 +1,7 @@
 #include "report/plot.h"
 
 #include "base/error.h"
+#include "base/text_file.h"
 
 #include <array>
 #include <cerrno>
@@ -22,8 +23,8 @@ namespace plumbline::report
     void check_picture(const std::filesystem::path &file)
     {
       std::ifstream in(file, std::ios::binary);
-      const std::string svg((std::istreambuf_iterator<char>(in)), {});
-      if (svg.find("</svg>") != std::string::npos)
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      if (text.rfind(base::has_ending(file, ".pdf") ? "%%EOF" : "</svg>") != std::string::npos)
         return;
       std::error_code ignored;
       std::filesystem::remove(file, ignored);

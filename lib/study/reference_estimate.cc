@@ -307,14 +307,16 @@ namespace plumbline::study
   }
 
   ReferenceAverages solve_reference(const scene::Case &one, const Method &method,
-                                    const scene::ReferenceSection &wanted)
+                                    const scene::ReferenceSection &wanted,
+                                    const std::vector<dealii::Point<2>> &points)
   {
     const problem::Problem<2> &problem = one.problem;
     const Solution solution = analysis::solve(method, problem);
-    ReferenceAverages result{solution.averages, {}};
+    ReferenceAverages result{solution.averages, {}, {}};
     result.estimate = wanted.estimate == scene::Estimate::none
                           ? Estimator(one, method, solution, {}).outer()
-                          : estimate_error(one, method, solution, false);
+                          : estimate_error(one, method, solution, false, points);
+    result.at_points = values_at(points, problem, solution, result.estimate.at_points);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
     result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
     const double size = averages_l2(problem, solution.averages,

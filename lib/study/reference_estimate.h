@@ -4,6 +4,7 @@
 #include "scene/problem.h"
 #include "study/analysis.h"
 #include "study/results.h"
+#include "study/values_at_points.h"
 
 namespace plumbline::study
 {
@@ -50,14 +51,16 @@ namespace plumbline::study
                                const Solution &solution, bool is_cheap,
                                const std::vector<dealii::Point<2>> &points = {});
 
-  /// A reference solution's averages with their estimate.
+  /// A reference solution's averages with their estimate, and its values at points.
   struct ReferenceAverages
   {
     std::vector<double> averages;
     ErrorEstimate estimate; ///< of outer quadrature alone if the scene asks for none
+    ValuesAtPoints at_points;
   };
 
   /// @throws NumericalError  the estimate is larger than the scene's Reference/tolerance
   ReferenceAverages solve_reference(const scene::Case &one, const Method &method,
-                                    const scene::ReferenceSection &wanted);
+                                    const scene::ReferenceSection &wanted,
+                                    const std::vector<dealii::Point<2>> &points = {});
 } // namespace plumbline::study

@@ -112,10 +112,14 @@ namespace plumbline::study
         {
           if (scene_.reference.method)
           {
-            ReferenceAverages reference = solve_reference(
-                one, *find_method(available_, *scene_.reference.method, "Reference/method"),
-                scene_.reference);
+            const auto method =
+                find_method(available_, *scene_.reference.method, "Reference/method");
+            const auto points =
+                options_.points ? options_.points(one.problem) : std::vector<dealii::Point<2>>{};
+            ReferenceAverages reference = solve_reference(one, *method, scene_.reference, points);
             results_.references.push_back(placed(reference.estimate, place_, one.name));
+            if (!points.empty())
+              options_.on_values(reference.at_points, reference_record(place_, *method, one.name));
             one.targets.reference = std::move(reference.averages);
           }
           if (scene_.problem.local_solution == scene::LocalSolution::computed)
@@ -294,6 +298,14 @@ namespace plumbline::study
       sort(results.estimates, itself);
     }
   } // namespace
+
+  Record reference_record(const Place &place, const Method &method, const std::string &problem)
+  {
+    Record record = place.record("statics", method);
+    record.key.problem = problem;
+    record.key.method = reference_name;
+    return record;
+  }
 
   Analysis statics_analysis(const Methods &available, const StaticsOptions &options)
   {

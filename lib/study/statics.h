@@ -21,7 +21,7 @@ namespace plumbline::study
     std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> points = {};
     std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> points_in_space = {};
     /// Receives the values there for every solution, with estimates of the error for Galerkin
-    /// methods.
+    /// methods; those of the reference with a record of reference_record().
     std::function<void(const ValuesAtPoints &, const Record &)> on_values = {};
     /// Records have the field that the decisive error is about: nodal values, or averages over the
     /// comparison cells.
@@ -33,6 +33,10 @@ namespace plumbline::study
     /// That solve problems on a box in space together.
     base::Communicator ranks = base::Communicator::alone();
   };
+
+  /// The record, without results, that values of the reference at points come with: its method is
+  /// reference_name.
+  Record reference_record(const Place &place, const Method &method, const std::string &problem);
 
   /// Solutions of all cases, compared with the exact solution, the local limit, the reference and
   /// the method's own finest level. On several ranks all run it together.

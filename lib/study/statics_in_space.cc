@@ -226,10 +226,22 @@ namespace plumbline::study
       {
         const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
         const SolutionInSpace solution = analysis::solve(*method, one.problem, ranks_);
+        const auto points = options_.points_in_space ? options_.points_in_space(one.problem)
+                                                     : std::vector<dealii::Point<3>>{};
+        const auto tell = [&](std::vector<double> errors)
+        {
+          if (!points.empty())
+            options_.on_values(values_at(points, one.problem, solution, std::move(errors)),
+                               reference_record(place_, *method, one.name));
+        };
         if (scene_.reference.estimate == scene::Estimate::none)
+        {
+          tell({});
           return solution.averages;
-        const ErrorEstimate estimate =
-            placed(estimate_in_space(*method, one.problem, solution, ranks_), place_, one.name);
+        }
+        const ErrorEstimate estimate = placed(
+            estimate_in_space(*method, one.problem, solution, ranks_, points), place_, one.name);
+        tell(estimate.at_points);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem, ranks_, solution.averages);
         if (const double tolerance = scene_.reference.tolerance;

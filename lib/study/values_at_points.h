@@ -7,6 +7,9 @@
 
 namespace plumbline::study
 {
+  /// The method of the records that values of the reference come with.
+  constexpr auto reference_name = "reference";
+
   /// A solution at points of its domain.
   struct ValuesAtPoints
   {

@@ -129,7 +129,7 @@ TEST(DynamicsCommand, goes_on_after_a_kill_to_the_same_bits)
   ASSERT_FALSE(fs::exists(killed / "dynamics.json"));
   const Outcome resumed = run(command + killed.string());
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  expect_found(resumed.err, " records are in '");
+  expect_found(resumed.err, "continuing: ");
   EXPECT_EQ(untimed(killed), untimed(whole));
   EXPECT_FALSE(fs::exists(journal));
 

@@ -74,6 +74,57 @@ TEST(Points, have_values_errors_and_changes_in_full_precision)
   fs::remove_all(folder);
 }
 
+TEST(Points, have_values_of_the_reference)
+{
+  const std::string file = write("of_reference.csv", "x,y\n0.31,0.73\n0.5,0.1\n");
+  const fs::path folder = temporary("of_reference");
+  for (const std::string estimate : {"automatic", "none"})
+  {
+    const Outcome outcome = run("run --quiet " +
+                                scene_at(file, "subsection Reference\n set method = Q2\n"
+                                               " set estimate = " +
+                                                   estimate + "\nend\n") +
+                                " -o " + folder.string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const std::string level : {"1", "2"})
+    {
+      const std::string begin = (folder / "points" / "u_m___3_").string(),
+                        end = "_level" + level + ".csv";
+      const auto reference = table(begin + "reference" + end), same = table(begin + "Q2" + end);
+      for (const std::string name : {"x", "y", "u", "exact", "error", "u_x", "u_y"})
+        EXPECT_EQ(reference.at(name), same.at(name)) << name;
+      EXPECT_EQ(reference.count("estimate"), estimate == "none" ? 0u : 1u);
+      EXPECT_EQ(reference.count("change"), level == "1" ? 0u : 1u);
+    }
+  }
+  fs::remove_all(folder);
+}
+
+TEST(Points, have_the_same_files_after_a_kill)
+{
+  const std::string file = write("resumed.csv", "x,y\n0.31,0.73\n0.5,0.1\n"),
+                    command = "run " +
+                              scene_at(file, "subsection Reference\n set method = Q2\n"
+                                             "end\n") +
+                              " --set Study/h=0.2,0.1,0.05";
+  const fs::path whole = temporary("points_whole"), folder = temporary("points_resumed");
+  ASSERT_EQ(run(command + " --quiet -o " + whole.string()).exit_code, 0);
+  ASSERT_TRUE(kill_at(command + " --quiet -o " + folder.string(),
+                      folder / "points" / "u_m___3_FA_level2.csv"));
+  const Outcome next = run(command + " -o " + folder.string());
+  ASSERT_EQ(next.exit_code, 0) << next.err;
+  expect_found(next.err, "continuing: ");
+  std::size_t n = 0;
+  for (const auto &one : fs::directory_iterator(whole / "points"))
+  {
+    EXPECT_EQ(read(folder / "points" / one.path().filename()), read(one.path())) << one.path();
+    ++n;
+  }
+  EXPECT_EQ(n, 9u);
+  fs::remove_all(whole);
+  fs::remove_all(folder);
+}
+
 TEST(Points, outside_of_the_domain_are_refused_by_their_line_before_anything_is_solved)
 {
   const std::string file = write("outside.csv", "x,y\n\n0.5,0.5\n1.5,0.5\n");

@@ -38,7 +38,7 @@ TEST(CommandResume, goes_on_with_an_unfinished_run_of_the_same_scene_and_files_a
   {
     const Outcome outcome = command(more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    const bool is = outcome.err.find("continuing: 1 records") != std::string::npos;
+    const bool is = outcome.err.find("continuing: 1 record in") != std::string::npos;
     kill_at_end(folder); // for the next one
     return is;
   };

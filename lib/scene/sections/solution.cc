@@ -93,9 +93,9 @@ namespace plumbline::scene
     keys.add(
         "points", points, any_text(),
         "CSV file with columns x and y (and z in three dimensions): points in the domain at which "
-        "'run' writes each static solution of Methods/names, its error, its change from the level "
-        "before and, for Galerkin methods, an estimate of its error (points/*.csv; no estimate "
-        "with Reference/estimate = none). For values of the reference, list its method in "
-        "Methods/names as well. The path is relative to the scene file; empty: none.");
+        "'run' writes each static solution of Methods/names and of the reference, its error, its "
+        "change from the level before and, for Galerkin methods, an estimate of its error "
+        "(points/*.csv; no estimate with Reference/estimate = none). The path is relative to the "
+        "scene file; empty: none.");
   }
 } // namespace plumbline::scene
