@@ -76,29 +76,31 @@ namespace plumbline::report
       for (const char *const name :
            {"anisotropy", "anisotropy L", "anisotropy T", "anisotropy T1", "anisotropy T2"})
         columns.push_back(error_column(name, name));
-      return {"long", "Long waves",
-              "Errors of the phase speed as the wave number tends to 0, relative to the local "
-              "limit's. L waves are polarised along their direction, T waves perpendicular to it "
-              "(in three dimensions, T1 also perpendicular to the third axis, and T2 perpendicular "
-              "to T1). These errors are the defects of the second moments, and do not vanish as h "
-              "and the horizon tend to 0 together. anisotropy: the speed along an axis minus that "
-              "along the diagonal (in three dimensions, the face or space diagonal, whichever "
-              "differs more), relative to the speed of the local limit.",
-              table_of(results, with_place(results, columns),
-                       [&](const Record &record) {
-                         return std::find(finest.begin(), finest.end(), &record) != finest.end();
-                       })};
+      return {
+          "long", "Long waves",
+          "Errors of the phase speed as the wave number tends to 0, relative to the phase speed "
+          "of the local limit. L waves are polarised along their direction, T waves perpendicular "
+          "to it "
+          "(in three dimensions, T1 also perpendicular to the third axis, and T2 perpendicular "
+          "to T1). These errors are the defects of the second moments, and do not vanish as h "
+          "and the horizon tend to 0 together. anisotropy: the speed along an axis minus that "
+          "along the diagonal (in three dimensions, the face or space diagonal, whichever "
+          "differs more), relative to the speed of the local limit.",
+          table_of(results, with_place(results, columns),
+                   [&](const Record &record)
+                   { return std::find(finest.begin(), finest.end(), &record) != finest.end(); })};
     }
 
     Part levels(const StudyResults &results)
     {
       return {
           "levels", "Over the sweep",
-          "local, nonlocal: the worst relative error of the longest wave's phase speed over all "
-          "directions, against the local limit and against the nonlocal operator. largest: of "
-          "the symbol over all waves that the lattice carries, over Time/density [1/time^2]; "
-          "critical step: 2 over its root, of central differences (velocity Verlet), and in "
-          "steps in which the fastest local wave crosses h. lumped: the mass matrix made "
+          "local, nonlocal: the relative error of the longest wave's phase speed in the worst "
+          "direction, against the local limit and against the nonlocal operator. largest: the "
+          "largest value of the symbol over all wave numbers of the lattice, divided by "
+          "Time/density [1/time^2]. critical step: 2 / sqrt(largest), the critical time step of "
+          "central differences (velocity Verlet); step c/h: the same, relative to the time in "
+          "which the fastest wave of the local limit crosses h. lumped: with the mass matrix made "
           "diagonal.",
           table_of(results,
                    with_place(results,
@@ -124,7 +126,7 @@ namespace plumbline::report
       Plot &plot = chart.plot;
       plot.is_y_log = false;
       plot.x_label = "wavelength [h]";
-      plot.y_label = speed + " over the local limit's";
+      plot.y_label = speed + ", relative to the local limit";
       plot.x_ticks = {2, 3, 5, 10, 20, 50, 100, 200};
       plot.frontier_label = "nonlocal";
       chart.data.columns = {"method", "series", "h", "wavelength over h", which, "nonlocal"};
@@ -157,6 +159,41 @@ namespace plumbline::report
       return chart;
     }
 
+    /// Phase speeds that coincide in a chart of speeds differ here.
+    DataChart deviations(const std::vector<const Record *> &finest,
+                         const std::vector<MethodName> &methods, const std::string &waves)
+    {
+      const std::string &series = finest.front()->key.series;
+      DataChart chart =
+          named("deviation" + (series.empty() ? "" : "_" + slug(series)) + "_" + slug(waves),
+                series + ", " + waves + ": deviation from the nonlocal operator");
+      Plot &plot = chart.plot;
+      plot.x_label = "wavelength [h]";
+      plot.y_label = "|c/c(nonlocal) - 1| of the phase speed [1]";
+      plot.x_ticks = {2, 3, 5, 10, 20, 50, 100, 200};
+      plot.shows_round_off = true;
+      chart.data.columns = {"method", "series", "h", "wavelength over h", "deviation"};
+      for (const Record *record : finest)
+      {
+        const Curve &curve = record->curves.at(waves);
+        const double h = record->key.h;
+        Line line{record->key.label(), style_of(methods, record->key.label()), 1.8, {}, 8};
+        for (std::size_t i = 0; i < curve[0].values.size(); ++i)
+        {
+          const double x = 2 * M_PI / (curve[0].values[i] * h),
+                       y = std::abs(curve[1].values[i] / curve[3].values[i] - 1);
+          if (!std::isfinite(y))
+            continue;
+          chart.data.rows.push_back({text_cell(record->key.label()), text_cell(series),
+                                     number_cell(h), number_cell(x), error_cell(y)});
+          if (y > 0)
+            line.points.push_back({x, y});
+        }
+        plot.lines.push_back(line);
+      }
+      return chart;
+    }
+
     std::vector<DataChart> charts(const StudyResults &results)
     {
       std::vector<DataChart> all = charts_of(
@@ -180,8 +217,12 @@ namespace plumbline::report
               if (record->key.series == series && record->curves.count(one) > 0)
                 finest.push_back(record);
             const bool is_first = one.find(first) != std::string::npos;
-            if (!finest.empty() && (which[0] == 'p' || is_first))
+            if (finest.empty())
+              continue;
+            if (which[0] == 'p' || is_first)
               all.push_back(speeds(finest, methods, one, which));
+            if (which[0] == 'p' && is_first)
+              all.push_back(deviations(finest, methods, one));
           }
       return all;
     }
@@ -191,16 +232,18 @@ namespace plumbline::report
   {
     View view{"Dispersion"};
     view.question =
-        "The longest wave of the domain is " + results.facts.at("longest wave") +
-        " long. Does its phase speed, in the worst of the directions, tend to the nonlocal "
-        "operator's, which tends to the local limit's itself as the horizon falls? Proven: by the "
-        "second moments of the stencil, or because a Galerkin space holds the continuous piecewise "
+        "Does the phase speed of the longest wave that fits into the domain (wavelength " +
+        results.facts.at("longest wave") +
+        ") converge to that of the nonlocal operator in every direction? The errors are those of "
+        "the worst direction. As the horizon tends to 0, the phase speed of the nonlocal operator "
+        "tends to that of the local limit. Proven: for rules, by the second moments of the "
+        "stencil; for Galerkin methods, because their space contains the continuous piecewise "
         "linear functions.";
     view.verdicts = verdicts(results);
-    view.facts = {counted(results.records.size(), "symbol")};
+    view.facts = {counted(results.records.size(), "run")};
     for (const auto &[sign, word, outcome] : {std::tuple("✓ ", " converge", "converges"),
                                               {"? ", " undecided", "undecided"},
-                                              {"✗ ", " do not", "stalls"}})
+                                              {"✗ ", " do not converge", "stalls"}})
       view.facts.push_back(
           sign +
           std::to_string(std::count_if(results.trends.begin(), results.trends.end(),
@@ -210,14 +253,13 @@ namespace plumbline::report
     for (const study::Trend &t : results.trends)
       view.ratings.emplace_back(rating(t));
     view.parts = {long_waves(results), levels(results),
-                  failures(results, "Levels without waves", "no waves, because")};
+                  failures(results, "Levels without results", "reason")};
     view.galleries = {
         {"charts", "Charts",
-         "Speeds at the finest level of each series, over the local limit's. Where h falls at a "
-         "fixed ratio of horizon to h these curves stay as they are, and a wave of a given length "
-         "moves to the right along them: a method is asymptotically compatible if its curve tends "
-         "to "
-         "1 there.",
+         "Phase and group speeds at the finest level of each series, relative to those of the "
+         "local limit. At a fixed ratio of horizon to h these curves do not depend on h. As h "
+         "tends to 0, a wave of a given length moves to the right along them; a method is "
+         "asymptotically compatible if its curve tends to 1 there.",
          charts(results)}};
     return view;
   }

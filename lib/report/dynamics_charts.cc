@@ -301,7 +301,7 @@ namespace plumbline::report
       const std::vector<analysis::Energies> energies = study::energies_of(run);
       std::vector<Vertex> points;
       for (const analysis::Energies &now : energies)
-        points.push_back({now.t, now.stored() / energies.front().stored()});
+        points.push_back({now.t, std::abs(now.stored() / energies.front().stored() - 1)});
       return points;
     }
 
@@ -341,8 +341,9 @@ namespace plumbline::report
                               "What stored and dissipated less supplied energy differ from the "
                               "start by, over the largest of them, at the finest level with the "
                               "shortest step."),
-              stored = named("stored", "Stored energy over that at the start",
-                             "At the finest level, with all steps."),
+              stored = named("stored", "Change of the stored energy",
+                             "|E(t)/E(0) - 1| at the finest level, with all steps; what stays "
+                             "below 1e-16 is not drawn."),
               history = named("history", "Errors versus time",
                               "Of displacements at the finest level with the shortest step.");
     const study::Axis axis =
@@ -352,7 +353,7 @@ namespace plumbline::report
     orders.plot.x_label = study::label(study::Axis::time_step, "");
     orders.plot.y_label = std::string("error in time, nodal L2") + in_unit_of_u;
     balance.plot.y_label = "imbalance over the largest energy";
-    stored.plot.y_label = "stored energy over that at the start";
+    stored.plot.y_label = "change of the stored energy, relative to the start";
     history.plot.y_label = "error, " + decisive(results) + in_unit_of_u;
     add(trends_chart(results, decisive(results), errors), 2);
     add(cost_chart(results), 2);

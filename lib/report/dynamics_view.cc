@@ -1,5 +1,6 @@
 #include "report/dynamics_view.h"
 
+#include "base/number_text.h"
 #include "report/counted.h"
 #include "report/selection.h"
 #include "report/text_table.h"
@@ -320,6 +321,23 @@ namespace plumbline::report
       };
       return std::any_of(results.records.begin(), results.records.end(), is_worse);
     }
+    /// "observed order in time (expected): explicit Euler 1.03 (1), ...".
+    std::string orders_answer(const StudyResults &results)
+    {
+      constexpr int n_digits = 3;
+      std::string text;
+      std::set<std::string> methods;
+      for (const study::Trend &t : results.trends)
+        if (t.axis == study::Axis::time_step)
+          methods.insert(t.method);
+      for (const study::Trend &t : results.trends)
+        if (t.axis == study::Axis::time_step && !t.verdict.empty())
+          text += (text.empty() ? "Observed order in time (expected order): " : ", ") +
+                  (methods.size() > 1 ? t.method + " with " : "") + t.variant + " " +
+                  base::to_text(t.rate, n_digits) + " (" +
+                  std::to_string(analysis::scheme(t.variant).order) + ")";
+      return text;
+    }
   } // namespace
 
   std::vector<const Record *> best_records(const StudyResults &results)
@@ -358,6 +376,8 @@ namespace plumbline::report
                   failed(results), reasons(results),  runs(results),      reference(results),
                   model(results),  omissions(results)};
     view.galleries = {{"charts", "Charts", "", dynamics_charts(results)}};
+    if (answer_of(view).empty())
+      view.answer = orders_answer(results);
     return view;
   }
 } // namespace plumbline::report

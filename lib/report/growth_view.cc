@@ -1,3 +1,4 @@
+#include "report/counted.h"
 #include "report/damage_maps.h"
 #include "report/microstructure.h"
 #include "report/spectrum_chart.h"
@@ -42,7 +43,7 @@ namespace plumbline::report
           {"broken bonds", "without those that the notch cuts"},
           {"events", "each breaks one bond and its ties, or a batch of bonds"},
           {"first break", "load factor at which the first bond breaks (event 0, with " +
-                              std::to_string(first_bonds(record)) + " bonds at once)"},
+                              counted(first_bonds(record), "bond") + " at once)"},
           {"first advance", "load factor at which the crack starts to grow (event " +
                                 std::to_string(record.count("first advance event")) + ")"},
           {"peak load", "load factor of the peak reaction"},
@@ -152,15 +153,16 @@ namespace plumbline::report
       if (is_broken)
         text = growth_words(record) + "; the peak reaction, " + rounded(record["peak reaction"]) +
                " [" + force_unit(record) + "], is at load " + rounded(record["peak load"]) + ". " +
-               std::to_string(record.count("broken bonds")) + " bonds break at " +
-               std::to_string(record.count("events")) + " events, from load " +
+               counted(record.count("broken bonds"), "bond") +
+               (record.count("broken bonds") == 1 ? " breaks at " : " break at ") +
+               counted(record.count("events"), "event") + ", from load " +
                rounded(column(record.curves.at("events"), "load").front()) + " on, " +
                ending(record);
       else
         text = "No bond breaks up to load " + rounded(record["last load"]);
       if (record.count("apart") > 0)
-        text += "; " + std::to_string(record.count("apart")) +
-                (record.count("apart") == 1 ? " cell face separates" : " cell faces separate") +
+        text += "; " + counted(record.count("apart"), "cell face") +
+                (record.count("apart") == 1 ? " separates" : " separate") +
                 " elsewhere, not connected to the notch";
       if (is_broken)
         text += ". At the end " +
@@ -186,10 +188,9 @@ namespace plumbline::report
     std::string interface_words(const Record &record)
     {
       const std::size_t n = record.count("interfaces");
-      return n == 0
-                 ? ""
-                 : " Bonds across " + std::to_string(n) + (n == 1 ? " line has" : " lines have") +
-                       " a G of its own (Fracture/interfaces).";
+      return n == 0 ? ""
+                    : " Bonds across " + counted(n, "line") +
+                          " have a G of their own (Fracture/interfaces).";
     }
 
     /// With what makes it again.

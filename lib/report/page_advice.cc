@@ -123,7 +123,15 @@ namespace plumbline::report::page
       return tallies;
     }
 
-    /// The answer where nothing is refined: whose largest error is least.
+    /// It says more than that no method is known to converge.
+    bool is_informative(const Data &card)
+    {
+      return card["has_choices"] || card["has_good"] ||
+             !card["stalling"].get<std::string>().empty() ||
+             !card["field_only"].get<std::string>().empty();
+    }
+
+    /// Whose largest error is least.
     std::string ranking(const study::StudyResults &results, const std::vector<MethodName> &methods)
     {
       std::vector<std::pair<double, std::string>> largest;
@@ -195,6 +203,19 @@ namespace plumbline::report::page
     }
   } // namespace
 
+  std::string ranking(const study::StudyResults &results)
+  {
+    return study::is_against(results.decisive_error, scene::Target::finest) ||
+                   !is_without_limit(results.regime) // methods converge or stall
+               ? ""
+               : ranking(results, methods(results));
+  }
+
+  std::string ranked_over(const study::StudyResults &results)
+  {
+    return results.variable.empty() ? "horizons" : "values of " + results.variable;
+  }
+
   Data advice(const study::StudyResults &results)
   {
     const std::vector<MethodName> names = methods(results);
@@ -202,10 +223,10 @@ namespace plumbline::report::page
       return {};
     const bool is_own = study::is_against(results.decisive_error, scene::Target::finest);
     if (!is_own && is_without_limit(results.regime)) // nothing converges or stalls
-      return {{"ranking", ranking(results, names)},
+      return {{"ranking", ranking(results)},
               {"is_between_models", false},
               {"target", study::target_words(results)},
-              {"over", results.variable.empty() ? "horizons" : "values of " + results.variable},
+              {"over", ranked_over(results)},
               {"summary", Data()}};
     if (study::is_between_models(results))
       return {{"ranking", ""},
@@ -216,6 +237,10 @@ namespace plumbline::report::page
     Data cards = Data::array(), more = Data::array();
     for (std::size_t i = 0; i < results.advice.size() && !is_own; ++i)
       (i < n_open_cards ? cards : more).push_back(card(results, results.advice[i], names));
+    const auto says_something = [](const Data &list)
+    { return std::any_of(list.begin(), list.end(), is_informative); };
+    if (!says_something(cards) && !says_something(more)) // the answer has said it
+      cards = more = Data::array();
     return {{"ranking", ""},
             {"is_between_models", false},
             {"target", study::target_words(results)},

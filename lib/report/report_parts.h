@@ -12,6 +12,13 @@ namespace plumbline::report::page
   /// null where nothing can be advised.
   Data advice(const study::StudyResults &results);
 
+  /// The answer where nothing is refined, so that no method converges or stalls: methods with their
+  /// largest error, the best first; empty in other studies.
+  std::string ranking(const study::StudyResults &results);
+
+  /// Over what: "horizons", or "values of nu".
+  std::string ranked_over(const study::StudyResults &results);
+
   /// All charts, the overall and the first convergence chart large.
   Data chart_groups(const study::StudyResults &results, const std::filesystem::path &dir);
 

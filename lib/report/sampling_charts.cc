@@ -1,3 +1,4 @@
+#include "report/counted.h"
 #include "report/damage_maps.h"
 #include "report/sampling_page.h"
 #include "report/spectrum_chart.h"
@@ -111,11 +112,7 @@ namespace plumbline::report
       const auto modes = [](const CaseStatistics &, const SetStatistics &set)
       { return static_cast<double>(set.n_modes); };
       const auto of_modes = [&](const SetStatistics &set)
-      {
-        return results.sampling.modes.empty()
-                   ? ""
-                   : ", " + std::to_string(set.n_modes) + (set.n_modes == 1 ? " mode" : " modes");
-      };
+      { return results.sampling.modes.empty() ? "" : ", " + counted(set.n_modes, "mode"); };
       const auto of_h = [&](const CaseStatistics &one)
       {
         return name_of(results, one) + "h = " + rounded(one.of.h) +
@@ -124,10 +121,7 @@ namespace plumbline::report
       const auto by_h = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + of_modes(set); };
       const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set)
-      {
-        return name_of(results, one) + std::to_string(set.n_samples) +
-               (set.n_samples == 1 ? " sample" : " samples") + of_modes(set);
-      };
+      { return name_of(results, one) + counted(set.n_samples, "sample") + of_modes(set); };
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
       { return of_h(one) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(

@@ -1,5 +1,6 @@
 #include "report/sampling_page.h"
 
+#include "report/counted.h"
 #include "report/page_parts.h"
 #include "report/text_table.h"
 #include "report/view.h"
@@ -62,9 +63,8 @@ namespace plumbline::report
         text += " (growth " + base::word(sampling.growth) + ")";
       if (sampling.rule == uq::SampleRule::monte_carlo)
         text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
-      text += ", " + std::to_string(n_variables) +
-              (n_variables == 1 ? " variable, " : " variables, ") + std::to_string(r.n_samples) +
-              " samples in all sets";
+      text += ", " + counted(n_variables, "variable") + ", " + counted(r.n_samples, "sample") +
+              " in all sets";
       if (r.spectrum)
         text += ". " + words_of(*r.spectrum);
       if (const std::string seeds = study::seed_words(r.random, r.n_samples); !seeds.empty())
@@ -85,9 +85,7 @@ namespace plumbline::report
 
     std::string words_of_modes(const SamplingResults &r, unsigned int n_modes)
     {
-      return r.sampling.modes.empty()
-                 ? ""
-                 : " and " + std::to_string(n_modes) + (n_modes == 1 ? " mode" : " modes");
+      return r.sampling.modes.empty() ? "" : " and " + counted(n_modes, "mode");
     }
 
     bool is_toughness(const std::string &quantity)
@@ -120,7 +118,7 @@ namespace plumbline::report
       const study::SampleCase &of = r.cases.back().of;
       return text.empty() ? ""
                           : "Means by " + of.method + " at h = " + rounded(of.h) + " over " +
-                                std::to_string(set->n_samples) + " samples: " + text + ". ";
+                                counted(set->n_samples, "sample") + ": " + text + ". ";
     }
 
     /// Of all sets but those of a level that is its own target.
@@ -148,8 +146,8 @@ namespace plumbline::report
     {
       std::string text = r.is_complete ? "" : "Not all samples have been computed yet. ";
       if (!r.failures.empty())
-        text += std::to_string(r.failures.size()) + " of " + std::to_string(r.n_samples) +
-                " samples failed. ";
+        text += std::to_string(r.failures.size()) + " of " + counted(r.n_samples, "sample") +
+                " failed. ";
       if (!r.cheapest.empty())
       {
         const study::CheapestPair &pair = r.cheapest.back();
@@ -168,6 +166,8 @@ namespace plumbline::report
       for (std::size_t i = 0; i < faults.size(); ++i)
         text += (i == 0 ? "Not as expected: " : "; ") + faults[i] +
                 (i + 1 == faults.size() ? ". " : "");
+      if (!text.empty())
+        text.pop_back(); // the blank after the last sentence
       return text.empty() ? "All samples have been computed." : text;
     }
 
@@ -218,7 +218,7 @@ namespace plumbline::report
                         const std::filesystem::path &dir)
     {
       std::vector<std::string> facts = {base::word(r.sampling.rule),
-                                        std::to_string(r.n_samples) + " samples"};
+                                        counted(r.n_samples, "sample")};
       if (r.n_expected > 0)
         facts.push_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
       Data data = page::begin("sample", r.scene_name, r.purpose, facts);

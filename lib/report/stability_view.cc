@@ -45,7 +45,7 @@ namespace plumbline::report
           "smallest, largest: eigenvalues of the symmetric part in the discrete L2 inner product; "
           "the smallest is the coercivity constant. asymmetry: of A, relative to its largest "
           "entry. "
-          "|A^-1|: how far u moves at most by a load of size 1; barrier: what the maximum "
+          "|A^-1|: the largest |u| under loads of size 1; barrier: what the maximum "
           "principle "
           "bounds it by, of M-matrices. min weight: relative to its area. rank, singular: of the "
           "moments asked of a family, and the smallest singular value of their matrix scaled to "
@@ -244,7 +244,7 @@ namespace plumbline::report
              const double smallest = record["smallest eigenvalue"];
              return is_definite(record) ? smallest : std::min(smallest, 0.);
            }},
-          {"inverse", "how far u moves at most by a load of size 1", "|A⁻¹| [u / b]",
+          {"inverse", "largest |u| under loads of size 1", "|A⁻¹| [u / b]",
            [](const Record &record) { return record["inverse norm"]; },
            [](const Record &record) { return is_m_matrix(record) ? record["barrier"] : 0; },
            "barriers (M-matrices)"},

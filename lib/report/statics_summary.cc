@@ -2,7 +2,9 @@
 
 #include "base/number_text.h"
 #include "report/counted.h"
+#include "report/report_parts.h"
 #include "report/text_table.h"
+#include "report/view.h"
 #include "study/cheapest.h"
 #include "study/model_facts.h"
 #include "study/target_words.h"
@@ -152,6 +154,17 @@ namespace plumbline::report
                          "; " + counted(one->certified_digits, "certified digit"));
     }
 
+    void print_ranking(std::ostream &out, const StudyResults &results)
+    {
+      constexpr std::size_t most = 3;
+      if (const std::string list = page::ranking(results); !list.empty())
+        for (const std::string &line :
+             short_lines("Largest error over all " + page::ranked_over(results) +
+                             " and problems, the best method first: " + list,
+                         most))
+          out << line << '\n';
+    }
+
     /// Of the first problems and series.
     void print_cheapest(std::ostream &out, const StudyResults &results)
     {
@@ -215,6 +228,7 @@ namespace plumbline::report
       print(out, line);
     out << "report: " << (folder / "report.html").string() << "\n\n";
     print_answer(out, results);
+    print_ranking(out, results);
     print_cheapest(out, results);
     if (std::all_of(results.advice.begin(), results.advice.end(),
                     [](const study::Advice &advice) { return advice.choices.empty(); }))

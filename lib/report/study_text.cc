@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <set>
 #include <utility>
 
 namespace plumbline::report
@@ -57,7 +58,21 @@ namespace plumbline::report
       lines.insert(lines.end(), block.begin(), block.end());
     }
 
-    /// "stable: FA, Q1; unstable: OPT", with series or quantities where there are several.
+    /// Whether all rows of a method (and scheme) have one verdict.
+    bool is_unanimous(const Table &verdicts, const std::vector<Cell> &row,
+                      const std::vector<std::size_t> &name, std::size_t verdict)
+    {
+      return std::all_of(verdicts.rows.begin(), verdicts.rows.end(),
+                         [&](const auto &other)
+                         {
+                           return other[verdict].text == row[verdict].text ||
+                                  std::any_of(name.begin(), name.end(),
+                                              [&](std::size_t c)
+                                              { return other[c].text != row[c].text; });
+                         });
+    }
+
+    /// "stable: FA, Q1; unstable: OPT", with series or quantities where these differ.
     std::string methods_by_verdict(const Table &verdicts)
     {
       const std::size_t method = column(verdicts, "method"), verdict = column(verdicts, "verdict"),
@@ -73,12 +88,19 @@ namespace plumbline::report
                                          });
       };
       const bool has_series = varies(series), has_schemes = varies(scheme);
+      std::vector<std::size_t> of_name = {method};
+      if (has_schemes)
+        of_name.push_back(scheme);
       std::vector<std::pair<std::string, std::string>> found;
+      std::set<std::string> known;
       for (const auto &row : verdicts.rows)
       {
+        const bool is_split = has_series && !is_unanimous(verdicts, row, of_name, verdict);
         const std::string name = row[method].text +
                                  (has_schemes ? " with " + row[scheme].text : "") +
-                                 (has_series ? " (" + row[series].text + ")" : "");
+                                 (is_split ? " (" + row[series].text + ")" : "");
+        if (!known.insert(name).second)
+          continue;
         const auto same =
             std::find_if(found.begin(), found.end(),
                          [&](const auto &one) { return one.first == row[verdict].text; });

@@ -143,9 +143,9 @@ namespace plumbline::report
     Table table;
     table.columns = {"method", "series", "verdict", "condition", "explanation"};
     for (const study::Verdict &v : results.verdicts)
-      table.rows.push_back({text_cell(v.method), known(!v.series.empty(), text_cell(v.series)),
-                            text_cell(v.verdict), text_cell(v.condition),
-                            text_cell(v.explanation)});
+      table.rows.push_back(
+          {text_cell(v.method), known(!v.series.empty(), text_cell(v.series)), text_cell(v.verdict),
+           known(!v.condition.empty(), text_cell(v.condition)), text_cell(v.explanation)});
     return without_empty_columns(table);
   }
 

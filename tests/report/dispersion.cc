@@ -182,7 +182,8 @@ namespace plumbline::report
   TEST(DispersionReport, charts_show_speeds_over_the_local_limits)
   {
     const auto charts = dispersion_view(results()).galleries.at(0).charts;
-    ASSERT_EQ(charts.size(), 1u + 4u + 2u); // errors; phase speeds; group speeds in one direction
+    // errors; phase speeds; in one direction deviations of these, and group speeds
+    ASSERT_EQ(charts.size(), 1u + 4u + 2u + 2u);
     EXPECT_EQ(charts[0].name, "errors_m-3");
     for (const DataChart &chart : charts)
       EXPECT_TRUE(fixture::has_units(chart.plot)) << chart.name;
@@ -201,6 +202,10 @@ namespace plumbline::report
     EXPECT_NEAR(plot.frontier[0].y, .95, 1e-12);
     EXPECT_LT(plot.y_range->low, .7);
     EXPECT_GE(plot.y_range->high, 1);
+    const Plot &deviation = named("deviation_m-3_l-waves-at-0").plot;
+    EXPECT_NEAR(deviation.lines[0].points[0].x, 2 * M_PI / 3, 1e-12);
+    EXPECT_NEAR(deviation.lines[0].points[0].y, std::abs(.7 / .95 - 1), 1e-12);
+    EXPECT_TRUE(deviation.is_y_log);
     // a wave that grows has no point
     const DataChart &group = named("group_m-3_l-waves-at-0");
     EXPECT_EQ(group.plot.lines[0].points.size(), 2u);

@@ -86,7 +86,7 @@ namespace plumbline::report
     const std::string page = fixture::read(folder.path() / "sample.html"),
                       answer =
                           "<p class=\"answer\">Means by FA at h = 0.25 over 4 samples: runs 0.5, "
-                          "standard deviation 0.5. Not as expected: runs are 2. </p>";
+                          "standard deviation 0.5. Not as expected: runs are 2.</p>";
     EXPECT_LT(page.find(answer), page.find("<section")) << page;
     EXPECT_EQ(page.find("<h2>Results"), std::string::npos); // there are no charts
     const Table table = sampling_quantity_table(results);

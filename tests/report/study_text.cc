@@ -124,3 +124,17 @@ TEST(StudyPage, begins_with_the_answer_that_the_terminal_ends_in)
   EXPECT_EQ(answer_of(view), "The crack runs.");
   EXPECT_EQ(answer_of({"Stability"}), "");
 }
+
+TEST(StudyText, names_series_and_quantities_of_a_method_where_its_verdicts_differ)
+{
+  report::View view{"Dispersion"};
+  view.verdicts.columns = {{"method"}, {"series"}, {"verdict"}};
+  const auto add = [&](const std::string &method, const std::string &series, const char *verdict) {
+    view.verdicts.rows.push_back({text_cell(method), text_cell(series), text_cell(verdict)});
+  };
+  add("FA", "m = 3", "not AC");
+  add("FA", "m = 4", "not AC");
+  add("Q1", "m = 3", "AC");
+  add("Q1", "m = 4", "undecided");
+  EXPECT_EQ(answer_of(view), "Not AC: FA; AC: Q1 (m = 3); undecided: Q1 (m = 4)");
+}
