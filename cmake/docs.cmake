@@ -7,6 +7,9 @@ if(SPHINX)
     DEPENDS plumbline
     COMMENT "Documentation in build/*/docs/html/index.html"
     USES_TERMINAL)
+  if(TARGET _core) # whose functions are listed
+    add_dependencies(docs _core)
+  endif()
 else()
   add_custom_target(docs
     COMMAND ${CMAKE_COMMAND} -E echo

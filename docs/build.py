@@ -15,7 +15,9 @@ sys.path.insert(0, str(DOCS / "_ext"))
 sys.dont_write_bytecode = True
 
 import plumbline_certified  # noqa: E402
+import plumbline_cpp  # noqa: E402
 import plumbline_gallery  # noqa: E402
+import plumbline_python  # noqa: E402
 import plumbline_reference as reference  # noqa: E402
 
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax
@@ -46,12 +48,14 @@ def prepare(program, folder):
     tell = reference.Program(program)
     pages = {"reference/commands.md": reference.commands_page(tell), "reference/keys.md": reference.keys_page(tell),
              "reference/methods.md": reference.methods_page(tell), "reference/results.md": reference.results_page(ROOT),
+             "reference/python_api.md": plumbline_python.page(program),
              "gallery.md": plumbline_gallery.page(ROOT, program, work, source / "_static" / "gallery")}
     pages["certified.md"] = plumbline_certified.page(ROOT, program, tell, work, source / "_static" / "gallery")
     for name, text in pages.items():
         path = source / name
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")
+    plumbline_cpp.write_pages(ROOT, source, folder / "declarations")
     python = ROOT / "python" / "README.md"
     if python.exists():  # the package describes itself
         text = reference.without_links(python.read_text(encoding="utf-8"))

@@ -14,12 +14,16 @@
     {results} FILE          tables of a Markdown or CSV file that a command before has written
         :columns: NAMES     only these columns, separated by ';'
 
-'python3 FILE' is a command, too. The working folder has the folder scenes of the source tree.
+'python3 FILE' is a command, too. Each page has a working folder, with the folder scenes of the source tree; the tutorial
+has one for all of its pages. Commands of a page run in their order, and those of two pages at a time, while Sphinx reads
+the pages (Ahead).
 """
 import csv
+import pathlib
 import re
 import shlex
 import subprocess
+from concurrent.futures import Future, ThreadPoolExecutor
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
@@ -74,14 +78,80 @@ def paragraphs(lines):
     return result
 
 
+def write_page_file(folder, _, name, __, content):
+    (folder / name).write_text("\n".join(content) + "\n", encoding="utf-8")
+
+
+def run_command(folder, program, command, options, _):
+    return run(shlex.split(command), folder, program, int(options.get("exit", 0)))
+
+
+def run_fragment(folder, program, scene, options, content):
+    part = folder / "fragment.prm"
+    part.write_text("\n".join(content) + "\n", encoding="utf-8")
+    words = ["plumbline"] + shlex.split(options["command"])
+    words.insert(2, scene)
+    for key, value in read_scene(part)["values"].items():
+        words += ["--set", f"{key}={value}"]
+    run(words + ["-o", "fragment"], folder, program)
+
+
+def read_results(folder, _, name, __, ___):
+    return (folder / name).read_text(encoding="utf-8")
+
+
+# what a directive does, apart from what it shows
+ACTIONS = {"file": write_page_file, "command": run_command, "fragment": run_fragment, "results": read_results}
+BLOCK = re.compile(r"^```\{(" + "|".join(ACTIONS) + r")\} ([^\n]*)\n((?::[a-z]+:[^\n]*\n)*)(.*?)^```$", re.M | re.S)
+
+
+class Ahead:
+    """Carries out the actions of all pages before Sphinx comes to them."""
+
+    def __init__(self, app):
+        self.work, self.program = app.config.plumbline_folder, app.config.plumbline_program
+        self.pool = ThreadPoolExecutor(2)
+        self.actions = {}  # of each page, in order: what is done, and its outcome
+        groups = {}
+        for name in sorted(app.env.found_docs):
+            text = pathlib.Path(app.env.doc2path(name)).read_text(encoding="utf-8")
+            blocks = [(kind, argument.strip(), dict(re.findall(r":([a-z]+): *(.*)", options)),
+                       content.strip("\n").split("\n") if content.strip() else [])
+                      for kind, argument, options, content in BLOCK.findall(text)]
+            if blocks:
+                self.actions[name] = [(block, Future()) for block in blocks]
+                group = name.split("/")[0] if name.startswith("tutorial/") else name.replace("/", "_")
+                groups.setdefault(group, []).extend(self.actions[name])
+        for group, actions in groups.items():
+            folder = self.work / "pages" / group
+            folder.mkdir(parents=True)
+            (folder / "scenes").symlink_to(app.config.plumbline_root / "scenes")
+            self.pool.submit(self.carry_out, folder, actions)
+
+    def carry_out(self, folder, actions):
+        for (kind, argument, options, content), outcome in actions:
+            try:
+                outcome.set_result(ACTIONS[kind](folder, self.program, argument, options, content))
+            except Exception as error:  # pylint: disable=broad-except  # the directive tells it
+                outcome.set_exception(error)
+
+    def outcome(self, page, kind, argument, content):
+        """Of the next action of a page, which must be the one that Sphinx read there."""
+        (kind_found, argument_found, _, content_found), outcome = self.actions[page].pop(0)
+        if (kind, argument) != (kind_found, argument_found) or (content and list(content) != content_found):
+            raise CommandFailed(f"'{kind} {argument}' is read as '{kind_found} {argument_found}' by Ahead")
+        return outcome.result()
+
+
 class Base(Directive):
     has_content = True
     required_arguments = 1
     final_argument_whitespace = True
 
-    def place(self):
+    def outcome(self):
+        """What the action of this directive returns."""
         env = self.state.document.settings.env
-        return env.config.plumbline_folder, env.config.plumbline_program
+        return env.app.plumbline_ahead.outcome(env.docname, self.name, self.arguments[0], self.content)
 
     def run(self):
         try:
@@ -103,10 +173,9 @@ class File(Base):
     option_spec = {}
 
     def show(self):
-        folder, _ = self.place()
+        self.outcome()
         text = "\n".join(self.content) + "\n"
         name = self.arguments[0]
-        (folder / name).write_text(text, encoding="utf-8")
         languages = {"prm": "scene", "py": "python", "geo": "c"}
         return self.block(text, languages.get(name.rsplit(".", 1)[-1], "text"), name)
 
@@ -116,9 +185,8 @@ class Command(Base):
                    "tail": directives.nonnegative_int, "lines": directives.unchanged, "silent": directives.flag}
 
     def show(self):
-        folder, program = self.place()
         command = self.arguments[0]
-        output = run(shlex.split(command), folder, program, self.options.get("exit", 0)).rstrip("\n")
+        output = self.outcome().rstrip("\n")
         shown = paragraphs(output.split("\n"))
         if "lines" in self.options:
             shown = [line for line in shown if re.search(self.options["lines"], line)]
@@ -140,17 +208,8 @@ class Fragment(Base):
     option_spec = {"command": directives.unchanged_required}
 
     def show(self):
-        folder, program = self.place()
-        scene = self.arguments[0]
-        text = "\n".join(self.content) + "\n"
-        part = folder / "fragment.prm"
-        part.write_text(text, encoding="utf-8")
-        words = ["plumbline"] + shlex.split(self.options["command"])
-        words.insert(2, scene)
-        for key, value in read_scene(part)["values"].items():
-            words += ["--set", f"{key}={value}"]
-        run(words + ["-o", "fragment"], folder, program)
-        return self.block(text, "scene")
+        self.outcome()
+        return self.block("\n".join(self.content) + "\n", "scene")
 
 
 class Source(Base):
@@ -173,8 +232,7 @@ class ResultTable(Base):
     option_spec = {"columns": directives.unchanged_required}
 
     def show(self):
-        folder, _ = self.place()
-        lines = (folder / self.arguments[0]).read_text(encoding="utf-8").splitlines()
+        lines = self.outcome().splitlines()
         if self.arguments[0].endswith(".csv"):
             rows = [[in_short(cell) for cell in row] for row in csv.reader(lines)]
             rows.insert(1, ["---"] * len(rows[0]))
@@ -192,7 +250,17 @@ class ResultTable(Base):
         return node.children
 
 
+def begin(app):
+    app.plumbline_ahead = Ahead(app)
+
+
+def end(app, _):
+    app.plumbline_ahead.pool.shutdown(cancel_futures=True)
+
+
 def setup(app):
+    app.connect("env-before-read-docs", lambda app, env, names: begin(app))
+    app.connect("build-finished", end)
     app.add_config_value("plumbline_program", None, "")
     app.add_config_value("plumbline_folder", None, "")
     app.add_lexer("scene", SceneLexer)

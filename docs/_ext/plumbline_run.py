@@ -4,7 +4,7 @@ import re
 import shlex
 import subprocess
 
-TIMEOUT = 100  # seconds, of one command
+TIMEOUT = 300  # seconds, of one command, also on a busy machine
 
 
 class CommandFailed(Exception):
