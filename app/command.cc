@@ -140,7 +140,7 @@ namespace plumbline::app
           ->check(CLI::Range(1u, most_levels));
       run.add_option(
           "--budget", options->budget,
-          "Leave out what is expected to take more CPU seconds, of one method at one level");
+          "Skip a method at a level if it is expected to take more CPU seconds than this");
       run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
       run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
       run.add_flag("--quiet", options->quiet, "Print nothing but errors");
@@ -156,7 +156,7 @@ namespace plumbline::app
     {
       const auto options = std::make_shared<CheckOptions>();
       auto &check = *app.add_subcommand(
-          "check", "Check the weights of another code: a page of their defects");
+          "check", "Check the weights of another code and report their defects");
       check
           .add_option(
               "NODES", options->nodes_file,
@@ -279,7 +279,7 @@ namespace plumbline::app
       command.add_flag("--check", options->check, "Exit with 1 if " + row.expected);
       command.add_option(
           "--budget", options->budget,
-          "Leave out what is expected to take more CPU seconds, of one method at one level");
+          "Skip a method at a level if it is expected to take more CPU seconds than this");
       command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
       if (row.takes_directions)
         add_directions(command, *words);
@@ -321,10 +321,9 @@ namespace plumbline::app
       command.add_option("--state", options->state,
                          "stress (plane stress, default), strain (plane strain) or 3D");
       command
-          .add_option(
-              check::ratios_option, options->ratios,
-              "Horizons over mesh size, separated by commas, semicolons or blanks (default: "
-              "2,3,4,5); may be repeated")
+          .add_option(check::ratios_option, options->ratios,
+                      "Ratios m = horizon / h, separated by commas, semicolons or blanks (default: "
+                      "2,3,4,5); may be repeated")
           ->allow_extra_args(false);
       command.add_option("--E", options->E, "Young's modulus of the material (default: 1)");
       command.add_option("--rules", options->rules, "Rules, comma separated (default: all)");
@@ -494,7 +493,7 @@ namespace plumbline::app
       add_word(app, request, "completion", "Print a script that completes commands and options",
                "SHELL", "bash or zsh",
                [&app](const std::string &shell) { return print(completion(app, shell)); });
-      set_action(*app.add_subcommand("man", "Print the page for man"), request,
+      set_action(*app.add_subcommand("man", "Print the manual page"), request,
                  [&app] { return print(man_page(app, PLUMBLINE_VERSION)); });
     }
 

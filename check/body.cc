@@ -140,7 +140,7 @@ namespace plumbline::check
       return std::to_string(factors.size()) + " of " + std::to_string(body.n_compared) +
              " bonds near free surfaces and cracks have " + number(factors.front()) + " to " +
              number(factors.back()) + " times (median " + number(factors[factors.size() / 2]) +
-             ") the weights of like bonds in the interior: no surface correction that is known";
+             ") the weights of like bonds in the interior: not a known surface correction";
     }
 
     /// Moments near free surfaces or cracks that are farther off than is allowed. Of half lists all

@@ -155,7 +155,7 @@ namespace plumbline::check
     record.notes = warnings(found, nodes);
     study::StudyResults results;
     results.analysis = "probe";
-    results.purpose = "Force constants by the forces of another program";
+    results.purpose = "Force constants from the forces of another program";
     results.records = {record};
     return io::to_json(results);
   }

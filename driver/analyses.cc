@@ -63,7 +63,7 @@ namespace plumbline::driver
         {"crack", "Dynamic fracture of a notched strip: tip, energies, contour plots",
          "Expected/crack fails", crack, report::crack_view, true},
         {"grow", "Quasi-static fracture, bond by bond: load, energies, contour plots",
-         "Expected/growth or growth ends fails, or the balance of energy", growth,
+         "Expected/growth, Expected/growth ends or the energy balance fails", growth,
          report::growth_view, true},
         {"strip", "Stationary crack: tip energy by meshfree and Galerkin methods",
          "Expected/strip fails, or a strip is too short",

@@ -22,7 +22,7 @@ namespace plumbline::driver
   /// The scene with its overrides, and names of methods as the methods write them.
   scene::Scene read_scene(const SceneOptions &options);
 
-  /// Nothing is held against a reference, nor is its error estimated.
+  /// The scene without its reference and without error estimates.
   scene::Scene without_reference(scene::Scene scene);
 
   /// The folder for results.

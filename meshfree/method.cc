@@ -57,7 +57,7 @@ namespace plumbline::meshfree
       {
         if (rule_.on_line)
           return {};
-        return rule_.not_on_line.empty() ? "it is not implemented on a line" : rule_.not_on_line;
+        return rule_.not_on_line.empty() ? "not implemented in one dimension" : rule_.not_on_line;
       }
 
       std::unique_ptr<method::IntervalDiscretisation>

@@ -68,7 +68,7 @@ namespace plumbline::algebra
         {
           std::ostringstream message;
           message << "the matrix is not positive definite (pivot " << value << " of " << diagonal
-                  << "), so that the problem has no stable solution by this method; take another "
+                  << "), so this method is not stable for this problem; take another "
                      "method or kernel";
           throw NumericalError(message.str());
         }

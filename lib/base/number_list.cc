@@ -58,7 +58,7 @@ namespace plumbline::base
           numbers.push_back(*number);
         else
           throw InputError(option + ": '" + word +
-                           "' is no number; give numbers separated by commas, semicolons or "
+                           "' is not a number; give numbers separated by commas, semicolons or "
                            "blanks");
     }
     if (numbers.empty())

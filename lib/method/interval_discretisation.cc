@@ -142,7 +142,7 @@ namespace plumbline::method
           stencil_, geometry::BoxNodes{{n, 1, 1}, is_free_}, backend_);
     if (backend_ != Backend::automatic && backend_ != Backend::direct)
       throw InputError("Solver/operator = " + base::word(backend_) +
-                       " is not for methods with several families of nodes on a line, whose matrix "
+                       " does not support methods with several unknowns per cell, whose matrix "
                        "is factored; write automatic or direct");
     return std::make_unique<algebra::BandedSystem>(stencil_, n, is_free_);
   }

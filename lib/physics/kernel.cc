@@ -158,7 +158,7 @@ namespace plumbline::physics
       throw InputError("kernel: the radial profile has no term; give Kernel/coefficients");
     if (dim == 1 && profile_.lowest_exponent() <= -3)
       throw InputError("kernel: the profile term r^" + std::to_string(profile_.lowest_exponent()) +
-                       " has no finite second moment on a line; use exponents above -3");
+                       " has no finite second moment in one dimension; use exponents above -3");
     if (dim > 1 && profile_.lowest_exponent() <= -dim)
       throw InputError("kernel: the profile term r^" + std::to_string(profile_.lowest_exponent()) +
                        " is not integrable in " + std::to_string(dim) + "D; use exponents above " +

@@ -94,7 +94,7 @@ namespace plumbline::physics
         std::ostringstream message;
         message << "the load that belongs to the solution (Problem/load = manufactured) cannot be "
                    "integrated at x = "
-                << x_ << ": give a solution that is smooth in pieces, or the load itself";
+                << x_ << ": give a piecewise smooth solution, or the load itself";
         throw NumericalError(message.str());
       }
 

@@ -4,7 +4,7 @@
 
 namespace plumbline::physics
 {
-  /// Between which values the constants of a solid lie.
+  /// Bounds on the Lamé constants of a solid.
   struct LameBounds
   {
     Lame least, largest;

@@ -44,13 +44,13 @@ namespace plumbline::problem
     if (problem.kernel.n_components() > 1 ||
         problem.kernel.structure() != physics::Structure::scalar)
       throw InputError(
-          "problem on a line: the kernel is a bond tensor, which on a line is no other "
-          "operator than the scalar kernel; give a scalar kernel");
+          "problem on intervals: the kernel is a bond tensor, which in one dimension is the same "
+          "operator as the scalar kernel; give a scalar kernel");
     if (!problem.load.value && !problem.solution)
-      throw InputError("problem on a line: there is neither a load nor a solution to make it from; "
+      throw InputError("problem on intervals: no load, and no solution to compute it from; "
                        "give one of them");
     if (!problem.constraint.value && !problem.solution)
-      throw InputError("problem on a line: there is neither a constraint nor a solution; give one "
+      throw InputError("problem on intervals: no constraint and no solution; give one "
                        "of them");
     problem.is_load_given = static_cast<bool>(problem.load.value);
     if (!problem.is_load_given)

@@ -187,7 +187,7 @@ namespace plumbline::report
                "Quadrature/tolerance > 0";
       if (n_wrong > 0)
         return "the known solution contradicts " + std::to_string(n_wrong) + of +
-               ": it is off by more than the bound; is Problem/solution that of the load?";
+               ": they differ by more than the bound; is Problem/solution correct for this load?";
       return certificate.galerkin.method + " and " + certificate.meshfree.method +
              " disagree about " + std::to_string(refused.size()) + of +
              ": they differ by more than both bounds; one of them is wrong, or its levels are "
@@ -201,7 +201,7 @@ namespace plumbline::report
       if (!is_galerkin && certificate.confirmed_digits() > 0)
         return "";
       return "the bound of " + (is_galerkin ? certificate.galerkin : certificate.meshfree).method +
-             " leaves not one digit certain at some points, relative to the root mean square of "
+             " does not confirm a single digit at some points, relative to the root mean square of "
              "u, " +
              text(certificate.size) + "; " +
              (is_galerkin ? "give a finer mesh (--reference-level, Study/h) or a higher degree"

@@ -34,8 +34,8 @@ namespace plumbline::report
     const char *const words_of_interpolant =
         "Error of the interpolant: the maximum of ‖u(ξ) − u^Q(ξ)‖, L2, over at most 32 samples of "
         "the last set that the set does not contain; u^Q is the polynomial through the samples of "
-        "the set (Fan et al. 2022, section 3.2). Lebesgue constant: what u^Q amplifies errors of "
-        "samples by, at most; of two numbers the first was found, and the second is a bound.";
+        "the set (Fan et al. 2022, section 3.2). Lebesgue constant: bound on how much u^Q "
+        "amplifies errors of samples; of two numbers the first was found, the second is a bound.";
 
     bool has_interpolant(const SamplingResults &results)
     {

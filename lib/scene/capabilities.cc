@@ -86,7 +86,7 @@ namespace plumbline::scene
         return {"Domain/boundary = periodic", "write constrained"};
       case C::line:
         return {"Domain/dimension = 1, which is for static analyses of scalar kernels on intervals "
-                "and for transient analyses of double wells",
+                "and for transient analyses of double-well bonds",
                 "write 2"};
       case C::space:
         return {"Domain/dimension = 3, which is available for static, transient and dispersion "

@@ -49,7 +49,7 @@ namespace plumbline::scene
                 !domain.is_floating,
             "Domain/boundary other than constrained for Material/model = " +
                 scene.material.model->name(),
-            "write constrained (periodic is for transient analyses of double wells)");
+            "write constrained (periodic is for transient analyses of double-well bonds)");
       needs(domain.cracks.empty() && domain.outside.empty(), "Domain/cracks and Domain/outside",
             "clear both");
       needs(!domain.collar, "Domain/interaction domain with a width", "write auto");
@@ -74,7 +74,7 @@ namespace plumbline::scene
             "Problem/local solution = computed", "write none, or an expression");
       needs(scene.output.points.empty(), "Output/points", "clear it");
       needs(scene.study.decisive_error.target != Target::finest,
-            "Study/decisive error against the own finest level", "write exact or reference");
+            "Study/decisive error against own finest level", "write exact, local or reference");
       for (const Norm norm : scene.study.norms)
         needs(quantity(norm) == Quantity::nodal || quantity(norm) == Quantity::averages,
               "Study/norms = " + base::word(norm), "write nodal or averages norms");
@@ -87,10 +87,9 @@ namespace plumbline::scene
     needs(!scene.material.model->takes_influence(),
           "Material/model = " + scene.material.model->name(),
           "write bond-based with a scalar Kernel/type");
-    needs(
-        kernel.structure == physics::Structure::scalar, "Kernel/type = " + kernel.type,
-        "write a scalar kernel: on a line, where u has one component, a bond tensor is the scalar "
-        "kernel of the same profile");
+    needs(kernel.structure == physics::Structure::scalar, "Kernel/type = " + kernel.type,
+          "write a scalar kernel: in one dimension u is a scalar, and a bond tensor is the scalar "
+          "kernel of the same profile");
     needs(kernel.coefficient.empty() && kernel.materials.empty(),
           "Kernel/coefficient and Kernel/materials", "clear both");
     check_analysis_of_line(scene);

@@ -18,7 +18,7 @@ namespace plumbline::scene
   /// @throws InputError  a text that says no intervals
   std::vector<geometry::Box> to_intervals(const std::string &text);
 
-  /// A problem on intervals; else dimension = 1 is the line of double wells, which closes.
+  /// A static problem; else dimension = 1 is a periodic interval with double-well bonds.
   bool is_on_intervals(const Scene &scene);
 
   /// @pre is_on_intervals()

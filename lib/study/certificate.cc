@@ -452,7 +452,7 @@ namespace plumbline::study
       if (!rules.empty())
         return rules;
       throw InputError("scene '" + scene.name +
-                       "': Methods/names has no meshfree rule, by which values are confirmed; add "
+                       "': Methods/names has no meshfree rule to confirm the values; add "
                        "one, e.g. IPA-AC-R2");
     }
 

@@ -77,7 +77,7 @@ namespace plumbline::study
       const std::string numbers = "8 λ∞ = " + number(one.left) + (one.holds() ? " > " : " <= ") +
                                   "(√μ∞ + (λ∞ − λ0)/√μ0)² = " + number(one.right);
       return one.holds() ? "holds, so that the problem is well posed: " + numbers
-                         : "does not hold, so that theorem 1 proves nothing (it is sufficient, not "
+                         : "does not hold, so theorem 1 does not apply (it is sufficient, not "
                            "necessary): " +
                                numbers;
     }

@@ -358,7 +358,7 @@ namespace plumbline::study
     const auto why_not = [&](const Method &one)
     {
       const MethodOnIntervals *on_line = on_intervals(one);
-      return on_line == nullptr ? std::string("it is not implemented on a line")
+      return on_line == nullptr ? std::string("not implemented in one dimension")
                                 : on_line->why_not_on_intervals(kernel);
     };
     const std::string why = why_not(method);

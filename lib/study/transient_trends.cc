@@ -97,7 +97,7 @@ namespace plumbline::study
       trend.reason =
           "the time step is the same at all levels and its error " +
           (is_known ? "is " + base::to_text(finest[time_error], 2) : std::string("is not known")) +
-          ": it may be what stays. Shorten the step with h, take a scheme of higher order, or give "
+          ": it may dominate. Reduce the step with h, take a scheme of higher order, or give "
           "two steps in Time/steps to have the error in time measured; " +
           trend.reason;
     }

@@ -19,7 +19,7 @@ namespace plumbline::meshfree
       method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
       std::string help() const override
       {
-        return rule_.name + " on free bodies of bonds (l = 4k); at surfaces: " + correction_.help;
+        return rule_.name + " on free bond-based bodies (l = 4k): " + correction_.help;
       }
       bool is_in_all() const override { return false; }
 

@@ -42,7 +42,7 @@ namespace plumbline::meshfree
         if (std::abs(body.V[i] - V) > rounding * body.h * body.h)
         {
           std::ostringstream message;
-          message << "fictitious nodes (methods +mirror) are those of one box with nodes on its "
+          message << "fictitious nodes (methods +mirror) need a body of one box with nodes on its "
                      "sides, but the cell of the node ("
                   << body.node(i) << ") has the area " << body.V[i] << ", not " << V
                   << "; write Domain/mesh = lattice, one box in Domain/boxes and no Domain/holes, "
@@ -226,7 +226,7 @@ namespace plumbline::meshfree
   {
     const auto found = equations_->displacements(at_free(f));
     if (!found)
-      throw NumericalError("the body of bonds is a mechanism; choose a larger horizon (Study/m)");
+      throw NumericalError("the bond network is a mechanism; choose a larger horizon (Study/m)");
     put(*found, 1, u);
     algebra::Vector residual(u.size());
     vmult(residual, u);

@@ -6,7 +6,7 @@
 
 namespace plumbline::meshfree
 {
-  /// A body of bonds (l = 4k) whose stiffnesses are those of the bulk times a surface correction,
+  /// A bond-based body (l = 4k): stiffnesses are those of the bulk times a surface correction,
   ///   uᵀBu/2 = Σ_bonds k/2 (d·Δu/r)²,  k = 2 (l/m) V_i V_j w ρ λ_ij,  m = h² Σ w ρ r²
   /// over a whole family, where VariationalOperator has the m of each node's own family. l is that
   /// of the first node. With fictitious nodes see SurfaceCorrection fictitious_nodes().

@@ -39,7 +39,7 @@ namespace plumbline::meshfree
          false,
          {},
          "its weights integrate s^2/|s|^3, which is not "
-         "integrable on a line"},
+         "integrable in one dimension"},
     };
     return table;
   }

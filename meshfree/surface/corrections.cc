@@ -7,7 +7,7 @@ namespace plumbline::meshfree
   const std::vector<SurfaceCorrection> &surface_corrections()
   {
     static const std::vector<SurfaceCorrection> table = {
-        {"none", "bonds as in the interior: too soft near surfaces"},
+        {"none", "no surface correction: bonds are too soft near surfaces"},
         volume_method(),
         force_density_method(),
         energy_method(),

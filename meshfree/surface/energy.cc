@@ -21,7 +21,7 @@ namespace plumbline::meshfree
   SurfaceCorrection energy_method()
   {
     return {"energy",
-            "stiffnesses times the ratio of energy densities under uniaxial strains, ideal over "
+            "stiffnesses times the ratio of energy densities under uniaxial strain, bulk over "
             "actual (Madenci & Oterkus 2014)",
             energy, false, on_ellipse};
   }

@@ -17,14 +17,13 @@ namespace plumbline::meshfree
   /// strain has its exact energy density at every node, and natural boundary conditions are those
   /// of the local limit. Forces derive from this energy; a scheme that lets fictitious nodes act on
   /// nodes of the body, but not these on the former, is in equilibrium under any uniform strain,
-  /// and knows of no free surface.
+  /// and has no traction-free surface.
   /// Named after the fictitious nodes method in the survey of Le & Bobaru 2018. The energy is
   /// derived here.
   SurfaceCorrection fictitious_nodes()
   {
-    return {
-        "mirror", "whole families by fictitious nodes beyond the sides of one box, odd about them",
-        nullptr,  false,
-        nullptr,  true};
+    return {"mirror", "families completed by fictitious nodes with extrapolated u around one box",
+            nullptr,  false,
+            nullptr,  true};
   }
 } // namespace plumbline::meshfree

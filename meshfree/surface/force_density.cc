@@ -6,7 +6,7 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    /// u = x_a e_a pulls the bond with c d_a²/r² along d/r: its component along e_a, without sign.
+    /// u = x_a e_a makes the force density c d_a²/r along d/r; magnitude of its component a.
     AxisSums force(const Tensor<1, 2> &d, double /*volume*/, double stiffness)
     {
       AxisSums result{};
@@ -24,7 +24,7 @@ namespace plumbline::meshfree
   SurfaceCorrection force_density_method()
   {
     return {"force-density",
-            "stiffnesses times the ratio of force densities under uniaxial strains, ideal over "
+            "stiffnesses times the ratio of force densities under uniaxial strain, bulk over "
             "actual (Le & Bobaru 2018)",
             force, false, on_ellipse};
   }

@@ -205,7 +205,7 @@ namespace plumbline::reference
     if (is_continuous || kernel.profile().lowest_exponent() > -2)
       return {};
     return "with a kernel like r^" + std::to_string(kernel.profile().lowest_exponent()) +
-           " at r = 0 the jumps of its functions have infinite energy on a line; take Q1, Q2 or Q3";
+           " at r = 0 jumps of u have infinite energy in one dimension; take Q1, Q2 or Q3";
   }
 
   std::unique_ptr<method::IntervalDiscretisation>

@@ -135,7 +135,7 @@ TEST(Certify, refuses_a_certificate_of_no_digits)
           "--reference-level 1 --quiet");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
   EXPECT_FALSE(fs::exists(folder / "certificate.json"));
-  expect_found(outcome.err, "nothing is certified: the bound of Q1 leaves not one digit certain");
+  expect_found(outcome.err, "nothing is certified: the bound of Q1 does not confirm a single");
 }
 
 TEST(Certify, refuses_scenes_that_are_none)
@@ -245,7 +245,7 @@ TEST(Grade, refuses_other_points_and_options)
   expect_no_grade("grade " + file + end + " --h 0", "not above 0");
   expect_no_grade("grade " + file + end + " --require digits=2.5", "--require 'digits=2.5'");
   expect_no_grade("grade " + file + end + " --require speed=1", "--require 'speed=1'");
-  expect_no_grade("grade " + file + end + " --require order=inf", "'inf' is no number");
+  expect_no_grade("grade " + file + end + " --require order=inf", "'inf' is not a number");
   nlohmann::json changed = read_json(certificate_folder() / "certificate.json");
   changed["scene_text"] = changed["scene_text"].get<std::string>() + " ";
   expect_no_grade("grade " + file + " --problem " + write("changed.json", changed.dump()),

@@ -100,8 +100,8 @@ TEST(DispersionCommand, refuses_what_has_no_waves)
   const std::string diffusion = scene("diffusion");
   expect_no_waves(diffusion + " --set Domain/mesh=squares", "Domain/mesh = squares");
   expect_no_waves(diffusion + " --set Solver/model=full", "Solver/model = full");
-  expect_no_waves(diffusion + " --angles x", "--angles: 'x' is no number");
-  expect_no_waves(diffusion + " --angles 0,3o", "--angles: '3o' is no number");
+  expect_no_waves(diffusion + " --angles x", "--angles: 'x' is not a number");
+  expect_no_waves(diffusion + " --angles 0,3o", "--angles: '3o' is not a number");
   expect_no_waves(diffusion + " --angles ''", "--angles has no numbers");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/state_based/bar.prm", "Domain/boundary = free");
   expect_no_waves(std::string(PLUMBLINE_SCENES) + "/lps/interface_crack.prm", "Domain/mesh");

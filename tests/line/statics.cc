@@ -201,7 +201,7 @@ TEST(StaticsOnLine, refuses_what_a_line_does_not_have)
       {"time", {{{"Time/final time", "1"}}, "transient analyses"}},
       {"free ends", {{{"Domain/boundary", "free"}}, "write constrained"}},
       {"y", {{{"Problem/solution", "x*y"}}, "depends on y"}},
-      {"a rule", {{{"Methods/names", "OPT"}}, "not integrable on a line"}},
+      {"a rule", {{{"Methods/names", "OPT"}}, "not integrable in one dimension"}},
       {"triangles", {{{"Methods/names", "P1"}}, "its cells are triangles (Domain/dimension = 1)"}},
       {"norms", {{{"Study/norms", "nodal Linf, field L2"}}, "nodal or averages norms"}}};
   for (const auto &[what, given] : refused)

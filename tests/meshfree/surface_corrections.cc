@@ -1,4 +1,4 @@
-// Surface corrections of bodies of bonds: which uniform strains have their energy at surfaces and
+// Surface corrections of bond-based bodies: which uniform strains have their energy at surfaces and
 // corners, and how stiff a bar is.
 
 #include "base/error.h"
@@ -292,7 +292,7 @@ TEST(SurfaceCorrections, fictitious_nodes_of_other_bodies_are_refused)
   };
   const VariationalBody with_hole =
       body_on_vertices(Lattice({{{{0, 0}, {1, 1}}}, {{{.5, .5}, {.75, .75}}}}, h), {}, bonds_alone);
-  EXPECT_NE(message(with_hole).find("+mirror) are those of one box"), std::string::npos)
+  EXPECT_NE(message(with_hole).find("+mirror) need a body of one box"), std::string::npos)
       << message(with_hole);
   EXPECT_NE(message(with_hole).find("take +energy"), std::string::npos);
   const std::string narrow = message(box(1, .25, h, {}));

@@ -34,7 +34,7 @@ namespace plumbline::scene
     keys.add(
         "dimension", dimension, count(1, 3),
         "2: the plane. 1: a line; expressions depend on x and have one component (static analyses "
-        "of scalar kernels on intervals, Domain/boxes = x0 : x1, with the kernels' constants of "
+        "of scalar kernels on intervals, Domain/boxes = x0 : x1, with kernel constants for "
         "one "
         "dimension; transient analyses of Material/model = double well with Domain/boundary = "
         "periodic on the first axis of the box). 3: space; expressions depend on x, y and z "
