@@ -75,9 +75,17 @@ namespace plumbline::scene
       needs(scene.output.points.empty(), "Output/points", "clear it");
       needs(scene.study.decisive_error.target != Target::finest,
             "Study/decisive error against own finest level", "write exact, local or reference");
+      const auto is_of_equations = [](Norm norm)
+      {
+        return quantity(norm) == Quantity::truncation || quantity(norm) == Quantity::bound ||
+               quantity(norm) == Quantity::energy;
+      };
       for (const Norm norm : scene.study.norms)
-        needs(quantity(norm) == Quantity::nodal || quantity(norm) == Quantity::averages,
-              "Study/norms = " + base::word(norm), "write nodal or averages norms");
+        needs(!is_of_equations(norm), "Study/norms = " + base::word(norm),
+              "write nodal or averages norms");
+      needs(quantity(scene.study.decisive_error.norm) != Quantity::field,
+            "Study/decisive error = " + scene.study.decisive_error.text(),
+            "write a nodal or averages norm");
     }
   } // namespace
 

@@ -203,7 +203,10 @@ TEST(StaticsOnLine, refuses_what_a_line_does_not_have)
       {"y", {{{"Problem/solution", "x*y"}}, "depends on y"}},
       {"a rule", {{{"Methods/names", "OPT"}}, "not integrable in one dimension"}},
       {"triangles", {{{"Methods/names", "P1"}}, "its cells are triangles (Domain/dimension = 1)"}},
-      {"norms", {{{"Study/norms", "nodal Linf, field L2"}}, "nodal or averages norms"}}};
+      {"norms", {{{"Study/norms", "nodal Linf, truncation L2"}}, "nodal or averages norms"}},
+      {"fields",
+       {{{"Study/norms", "field L2"}, {"Study/decisive error", "field L2 | exact"}},
+        "write a nodal or averages norm"}}};
   for (const auto &[what, given] : refused)
     expect_in(given.second, message_of(given.first));
 }
