@@ -64,7 +64,7 @@ namespace plumbline::report
 
   std::string pdf_script(const std::string &svg_script)
   {
-    // by default text is drawn at half its size, and lines are half as wide as in SVG
+    // text, lines and dashes as large as in SVG
     static const std::regex terminal(
         "^set terminal svg size ([0-9.e+]+),([0-9.e+]+) dynamic (.*)$"),
         output("^(set output '.*)\\.svg'$");
@@ -74,7 +74,7 @@ namespace plumbline::report
     for (std::string line; std::getline(in, line); script += line + "\n")
       if (begins(line, "set terminal") && std::regex_match(line, found, terminal))
         line = "set terminal pdfcairo size " + in_inches(found[1]) + "," + in_inches(found[2]) +
-               " " + found[3].str() + " fontscale 1 linewidth 2 dashlength 2";
+               " " + found[3].str() + " fontscale .72 linewidth 2 dashlength 2";
       else if (begins(line, "set output"))
         line = std::regex_replace(line, output, "$1.pdf'");
     return script;

@@ -45,7 +45,7 @@ TEST(Pdf, takes_the_terminal_and_the_name_of_the_file_alone_from_a_script)
                        "set output 'a.svg'\n" +
                        title),
             "set terminal pdfcairo size 1.000000in,2.000000in enhanced font 'sans-serif,14' "
-            "fontscale 1 linewidth 2 dashlength 2\nset output 'a.pdf'\n" +
+            "fontscale .72 linewidth 2 dashlength 2\nset output 'a.pdf'\n" +
                 title);
 }
 
