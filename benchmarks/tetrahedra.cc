@@ -57,7 +57,7 @@ namespace plumbline::benchmarks
       count(state, "face pairs",
             static_cast<double>(std::accumulate(use.n_pairs.begin(), use.n_pairs.end(),
                                                 static_cast<std::size_t>(0))));
-      state.counters["error"] = rule.is_exact ? use.error : difference(matrix, exact);
+      state.counters["error"] = rule.is_exact ? use.error : reference::difference(matrix, exact);
     }
   } // namespace
 

@@ -25,7 +25,7 @@ namespace plumbline::reference
     /// The same with 237 bits: coordinates are exact, and what is not parallel differs by more.
     constexpr double no_rounding = 1e-55;
     /// Faces nearer than this [horizons] take functions that are regular at 0.
-    constexpr double compact_from = .01;
+    constexpr double compact_from = .1;
 
     template <class Real>
     FormFace<Real> form_face(const PairFace &face)
@@ -67,16 +67,6 @@ namespace plumbline::reference
     bool is_far(const PairFace &f, const PairFace &g)
     {
       return gap(f, g) > compact_from;
-    }
-
-    /// No vertex of one is one of the other.
-    bool are_apart(const PairFace &f, const PairFace &g)
-    {
-      for (const unsigned int name : f.names())
-        for (const unsigned int other : g.names())
-          if (name == other)
-            return false;
-      return true;
     }
 
     struct NothingShared
@@ -698,7 +688,8 @@ namespace plumbline::reference
     std::vector<Batch::Way> ways;
     std::vector<Sum<double>> sums;
     Batch(*parts_, f, true, tables).run(others, ways, sums);
-    // where a sum has too much round-off, terms of the other functions may cancel less
+    // where a sum of compact functions has too much round-off, terms of regular ones may cancel
+    // less; compact ones are for faces that are far from each other
     std::vector<std::size_t> places;
     std::vector<const NumberedFace *> again;
     for (std::size_t k = 0; k < others.size(); ++k)
@@ -710,7 +701,7 @@ namespace plumbline::reference
       result[k] = {sums[k].value, bound(sums[k]), 0};
       if (result[k].error <= tolerance_)
         continue;
-      if (are_apart(*f.face, *others[k]->face))
+      if (is_far(*f.face, *others[k]->face))
       {
         places.push_back(k);
         again.push_back(others[k]);
