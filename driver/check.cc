@@ -70,10 +70,12 @@ namespace plumbline::driver
                                      { return one.name == name; });
       const bool is_vector = !(model.empty() || model == scene::bond_based().name()) ||
                              (type != types.end() && type->structure == physics::Structure::tensor),
-                 is_in_space = value_of("Domain/dimension") == "3";
-      const std::string solution = is_in_space ? (is_vector ? "x, y, z" : "x")
-                                   : is_vector ? "sin(3*x)*cos(2*y), cos(x)*sin(3*y)"
-                                               : "sin(3*x)*cos(2*y)";
+                 is_in_space = value_of("Domain/dimension") == "3",
+                 is_on_line = value_of("Domain/dimension") == "1";
+      const std::string solution = is_in_space  ? (is_vector ? "x, y, z" : "x")
+                                   : is_on_line ? "sin(3*x)"
+                                   : is_vector  ? "sin(3*x)*cos(2*y), cos(x)*sin(3*y)"
+                                                : "sin(3*x)*cos(2*y)";
       options.overrides.push_back({"Problem/solution", solution});
       if (!is_in_space) // there nothing is solved
         options.assumption = "Problem/solution is not given: u = " + solution + " is solved for";

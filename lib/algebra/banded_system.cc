@@ -1,6 +1,7 @@
 #include "algebra/banded_system.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -52,6 +53,10 @@ namespace plumbline::algebra
         }
     const std::size_t n = place_.size();
     band_ = std::min((static_cast<std::size_t>(stencil_.reach()) + 1) * n_blocks, n);
+    base::require_memory(
+        8. * static_cast<double>(n) * static_cast<double>(band_ + 1),
+        "the banded factor of " + std::to_string(n) + " unknowns",
+        "choose a larger h or a smaller horizon (Study/h, Study/m, Study/horizon)");
     factor_.assign(n * (band_ + 1), 0);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i < band_ ? 0 : i - band_; j <= i; ++j)

@@ -46,6 +46,17 @@ namespace plumbline::method
     return lattice_.coordinate(i + families_[family].offset);
   }
 
+  bool IntervalDiscretisation::is_needed(unsigned int family, int i) const
+  {
+    if (lattice_.is_inside(i) || lattice_.is_inside(i - 1)) // of a cell of Ω
+      return true;
+    for (unsigned int t = 0; t < families_.size(); ++t)
+      for (int k = -stencil_.reach(); k <= stencil_.reach(); ++k)
+        if (is_free(t, i + k) && stencil_(t, family, -k, 0) != 0)
+          return true;
+    return false;
+  }
+
   IntervalDiscretisation::Surroundings
   IntervalDiscretisation::surroundings(const problem::Problem<1> &problem) const
   {
@@ -68,7 +79,7 @@ namespace plumbline::method
       for (int i = -margin; i < n + margin; ++i)
       {
         around.values.push_back(0);
-        if (is_free(s, i) || is_near[i + margin] == 0)
+        if (is_free(s, i) || is_near[i + margin] == 0 || !is_needed(s, i))
           continue;
         around.values.back() = problem.constraint.value(dealii::Point<1>(place(s, i)), 0);
         low = std::min(low, around.values.back());

@@ -75,6 +75,9 @@ namespace plumbline::method
     double place(unsigned int family, int i) const; ///< its coordinate [length]
 
   private:
+    /// Whether a value there enters an equation, or an average over a cell.
+    bool is_needed(unsigned int family, int i) const;
+
     /// Over the nodes, 0 where they are not free.
     virtual Vector load(const problem::Problem<1> &problem) const = 0;
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "physics/gauss.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -17,7 +18,8 @@ namespace plumbline::physics
 
     struct Sum
     {
-      double value = 0, size = 0; ///< size: of the terms that cancel
+      double value = 0, mass = 0; ///< mass: ∫ |C|
+      double largest = 0;         ///< |u|
     };
 
     struct Piece
@@ -40,11 +42,12 @@ namespace plumbline::physics
         constexpr int most_depth = 40;
         constexpr unsigned int most_pieces = 4000;
         std::vector<Piece> open;
-        double from = 0, size = 0;
+        double from = 0, mass = 0, largest = 0;
         const auto add = [&](double end)
         {
           open.push_back({from, end, sum(from, end), 0});
-          size += open.back().sum.size;
+          mass += open.back().sum.mass;
+          largest = std::max(largest, open.back().sum.largest);
           from = end;
         };
         for (const double end : kernel_.breaks())
@@ -60,7 +63,8 @@ namespace plumbline::physics
           const Piece lower{whole.from, middle, sum(whole.from, middle), whole.depth + 1},
               upper{middle, whole.to, sum(middle, whole.to), whole.depth + 1};
           const double halves = lower.sum.value + upper.sum.value;
-          if (std::abs(halves - whole.sum.value) <= tolerance * size)
+          largest = std::max({largest, lower.sum.largest, upper.sum.largest});
+          if (std::abs(halves - whole.sum.value) <= tolerance * 4 * mass * largest)
             result += halves;
           else if (whole.depth >= most_depth || ++n_pieces > most_pieces)
             refuse();
@@ -83,8 +87,9 @@ namespace plumbline::physics
                        weight = (to - from) * gauss_.weight(q) * kernel_.radial(r),
                        right = u_(Point<1>(x_ + r), 0), left = u_(Point<1>(x_ - r), 0);
           result.value += weight * ((middle_ - right) + (middle_ - left));
-          result.size +=
-              std::abs(weight) * (2 * std::abs(middle_) + std::abs(right) + std::abs(left));
+          result.mass += std::abs(weight);
+          result.largest =
+              std::max({result.largest, std::abs(middle_), std::abs(right), std::abs(left)});
         }
         return result;
       }

@@ -121,7 +121,6 @@ namespace plumbline::scene
       given.emplace_back("Problem/constraint", *problem.constraint);
     if (problem.local_solution == LocalSolution::expression)
       given.emplace_back("Problem/local solution", problem.local_expression);
-    const geometry::Box &box = scene.domain.boxes.include.front();
     for (const auto &[key, text] : given)
       for (const double part : parts_of_time)
       {
@@ -130,14 +129,15 @@ namespace plumbline::scene
         auto names = scene.names(1, part * time.final_time);
         names.constants["h"] = 1; // of the level
         const physics::Expression u(key, text, names);
-        for (const double s : base::control_points(n_samples))
-        {
-          const double x = box.lower[0] + s * (box.upper[0] - box.lower[0]);
-          require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
-                  key + " = '" + text +
-                      "' depends on y, which a line (Domain/dimension = 1) does "
-                      "not have; write it in x alone");
-        }
+        for (const geometry::Box &box : scene.domain.boxes.include)
+          for (const double s : base::control_points(n_samples))
+          {
+            const double x = box.lower[0] + s * (box.upper[0] - box.lower[0]);
+            require(u(dealii::Point<2>(x, .271), 0) == u(dealii::Point<2>(x, .619), 0),
+                    key + " = '" + text +
+                        "' depends on y, which a line (Domain/dimension = 1) does "
+                        "not have; write it in x alone");
+          }
       }
   }
 } // namespace plumbline::scene

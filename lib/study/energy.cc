@@ -65,7 +65,9 @@ namespace plumbline::study
       };
       std::map<std::array<long long, dim>, std::size_t> place;
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        place.emplace(key(nodes[i]), i);
+        if (!place.emplace(key(nodes[i]), i).second)
+          throw NumericalError("the norm energy: two nodes share a place and cannot be told apart; "
+                               "write nodal or averages norms");
       const std::size_t n_components = nodes.empty() ? 1 : values.size() / nodes.size();
       std::vector<double> result;
       for (const dealii::Point<dim> &x : order)

@@ -1,5 +1,6 @@
 #include "study/interpolation_error.h"
 
+#include "base/error.h"
 #include "uq/interpolation.h"
 
 #include <algorithm>
@@ -135,6 +136,8 @@ namespace plumbline::study
       double sum = 0;
       for (std::size_t i = 0; i < error.size(); ++i)
         sum += places.area[i / places.n_components] * error[i] * error[i];
+      if (!std::isfinite(sum))
+        throw NumericalError("the interpolant between samples is not finite");
       largest = std::max(largest, std::sqrt(sum));
     }
     return largest;

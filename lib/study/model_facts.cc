@@ -39,11 +39,12 @@ namespace plumbline::study
       return scene.kernel.limit == scene::Limit::none ? "c = " + number(scene.kernel.constant) : "";
     }
 
+    constexpr int n_points = 65; ///< along a side, where constants vary
+
     /// Of λ and μ in the boxes of Ω and in the interaction domain of the largest horizon, at the
     /// points of a grid; nothing where the material varies and Ω is no boxes.
     std::optional<physics::LameBounds> bounds_of_constants(const scene::Scene &scene)
     {
-      constexpr int n_points = 65; // along a side
       const auto lame = scene.material.lame();
       if (scene.material.is_homogeneous)
         return physics::LameBounds{lame({}), lame({})};
@@ -71,12 +72,17 @@ namespace plumbline::study
     }
 
     /// Of the theorem that the linear peridynamic solid is well posed.
-    std::string words_of_assumption(const physics::LameBounds &bounds)
+    /// @param is_sampled  bounds are those at points
+    std::string words_of_assumption(const physics::LameBounds &bounds, bool is_sampled)
     {
       const physics::Assumption1 one = physics::assumption_1(bounds);
       const std::string numbers = "8 λ∞ = " + number(one.left) + (one.holds() ? " > " : " <= ") +
                                   "(√μ∞ + (λ∞ − λ0)/√μ0)² = " + number(one.right);
-      return one.holds() ? "holds, so that the problem is well posed: " + numbers
+      const std::string n = std::to_string(n_points);
+      return one.holds() ? (is_sampled ? "holds at " + n + " × " + n +
+                                             " points of each box, which is no proof between them: "
+                                       : "holds, so that the problem is well posed: ") +
+                               numbers
                          : "does not hold, so theorem 1 does not apply (it is sufficient, not "
                            "necessary): " +
                                numbers;
@@ -129,7 +135,7 @@ namespace plumbline::study
     if (model.is_state_based() && model.mean() == physics::Mean::harmonic &&
         scene.domain.dimension == 2 && !scene.domain.is_free_body && !scene.domain.is_damaged())
       if (const auto bounds = bounds_of_constants(scene))
-        facts[assumption_1_fact] = words_of_assumption(*bounds);
+        facts[assumption_1_fact] = words_of_assumption(*bounds, !scene.material.is_homogeneous);
     if (scene.material.boundary_function == scene::BoundaryFunction::smoothstep)
       facts["boundary function"] = "t²(3 − 2t) with t = min(1, (distance to the boundary)/δ)";
     if (scene.domain.is_damaged())

@@ -10,12 +10,17 @@ namespace plumbline::study
   namespace
   {
     /// A field may hide what is wrong, never a proof; and a proof settles what errors leave open.
+    /// While errors are as large as wrong moments make them, nothing is hidden yet: errors of other
+    /// origin that have the opposite sign fall before they show.
     void settle(Trend &trend)
     {
+      constexpr double seen = 1. / 3; // of the error that wrong moments make
       using Answer = LimitProof::Answer;
       const Answer answer = trend.proof.answer;
       if (answer == Answer::incompatible && trend.outcome == Outcome::converges)
-        trend.outcome = Outcome::field_only;
+        trend.outcome = trend.values.back() < seen * trend.proof.defect * trend.size
+                            ? Outcome::field_only
+                            : Outcome::undecided;
       if (trend.finest > 0) // a wrong limit is one
         return;
       if (answer == Answer::incompatible && trend.leaning == Leaning::plateau_or_power)

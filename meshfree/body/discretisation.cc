@@ -200,6 +200,10 @@ namespace plumbline::meshfree
                                                               const SurfaceCorrection &correction,
                                                               const problem::Problem<2> &problem)
   {
+    if (problem.settings.solver.operator_backend == OperatorBackend::fft)
+      throw InputError(
+          "Solver/operator = fft does not support surface corrections, whose matrix is "
+          "factored; write automatic or direct");
     const Bonds<2> bonds = bonds_of(rule, problem);
     return std::make_unique<RuleOnBody>(
         problem, bonds,

@@ -14,6 +14,9 @@ namespace plumbline::meshfree
   namespace
   {
     constexpr double rounding = 1e-9; // of h²
+    constexpr auto mechanism =
+        "the bond network is a mechanism; choose a larger horizon (Study/m), or fix more nodes "
+        "(Domain/fixed)";
 
     /// Nodes of a body, by their positions in it.
     std::vector<std::size_t> positions_of(const VariationalBody &body)
@@ -191,6 +194,8 @@ namespace plumbline::meshfree
         network_(make_body_network(body_, influence, bonds, correction)), connections_(network_),
         equations_(factored_equations(network_, connections_))
   {
+    if (!connections_.holds().empty())
+      throw NumericalError(mechanism);
   }
 
   std::uint64_t NetworkOperator::n_bonds() const
@@ -226,11 +231,16 @@ namespace plumbline::meshfree
   {
     const auto found = equations_->displacements(at_free(f));
     if (!found)
-      throw NumericalError("the bond network is a mechanism; choose a larger horizon (Study/m)");
+      throw NumericalError(mechanism);
     put(*found, 1, u);
     algebra::Vector residual(u.size());
     vmult(residual, u);
     residual -= f;
-    return {1, residual.l2_norm() / std::max(f.l2_norm(), std::numeric_limits<double>::min())};
+    constexpr double largest_residual = 1e-8;
+    const double relative =
+        residual.l2_norm() / std::max(f.l2_norm(), std::numeric_limits<double>::min());
+    if (!(relative <= largest_residual))
+      throw NumericalError(mechanism);
+    return {1, relative};
   }
 } // namespace plumbline::meshfree

@@ -51,9 +51,14 @@ namespace plumbline::reference
     /// g, regular.
     Real density(const Real &r) const;
 
-    /// H, compact, in double.
+    /// Whether PieceForm has room for its coefficients.
+    bool has_forms() const
+    {
+      return std::max(compact_.size(), regular_.size()) <= PieceForm::most_coefficients;
+    }
+    /// H, compact, in double. @pre has_forms()
     PieceForm compact_form() const;
-    /// H, regular, in double, of a function of this part alone.
+    /// H, regular, in double, of a function of this part alone. @pre has_forms()
     PieceForm regular_form(bool is_inside) const;
 
   private:

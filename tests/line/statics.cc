@@ -118,6 +118,39 @@ TEST(StaticsOnLine, quadratics_are_exact_where_they_must_be)
       EXPECT_LT(record["nodal Linf | exact"], 1e-10) << record.key.method << ", " << kernel;
 }
 
+// ln(x + .2) is defined within the horizon of .15 around the interval, not within .2.
+TEST(StaticsOnLine, constraints_are_asked_for_within_the_horizon_alone)
+{
+  for (const Record &record : run({{"Problem/solution", "ln(x + 0.2)"},
+                                   {"Study/h", "1/20"},
+                                   {"Study/m", "3"},
+                                   {"Methods/names", "FA, IPA-AC-R2, Q1, DGQ0"}})
+                                  .records)
+    EXPECT_EQ(record.failure, "") << record.key.method;
+}
+
+// At first errors fall as the layer at the ends does, from the other side: 1 - 1/C(m) of them
+// stays.
+TEST(StaticsOnLine, an_error_as_large_as_its_moment_makes_it_is_not_hidden)
+{
+  const auto verdict = [](const std::string &h)
+  {
+    for (const Trend &trend : run({{"Problem/solution", ""},
+                                   {"Problem/load", "1"},
+                                   {"Problem/constraint", "0"},
+                                   {"Problem/local solution", "x*(1 - x)/2"},
+                                   {"Study/h", h},
+                                   {"Methods/names", "PA-AC"},
+                                   {"Study/norms", "nodal Linf"},
+                                   {"Study/decisive error", "nodal Linf | local"}})
+                                  .trends)
+      return trend.verdict;
+    return std::string();
+  };
+  EXPECT_EQ(verdict("1/10, 1/20, 1/40, 1/80"), "undecided");
+  EXPECT_EQ(verdict("1/80, 1/160, 1/320, 1/640"), "not AC");
+}
+
 TEST(StaticsOnLine, smooth_solutions_converge_with_rate_two)
 {
   const auto results = run({{"Problem/solution", "sin(3*x)"},

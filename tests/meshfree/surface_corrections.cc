@@ -242,6 +242,18 @@ TEST(SurfaceCorrections, operators_are_those_of_their_energy_and_are_solved)
   }
 }
 
+// Bonds along the axes alone do not resist shear.
+TEST(SurfaceCorrections, mechanisms_are_no_solution)
+{
+  const double h = 1. / 8;
+  const Kernel<2> kernel = physics::deviatoric_kernel(influence(h), 1);
+  const Bonds<2> bonds =
+      lattice_bonds(find_rule("FA", "").in_plane(kernel), kernel, h, Backend::fast);
+  EXPECT_THROW(NetworkOperator(box(1, 1, h, {rectangle(0, 0, .25, 1)}), influence(h), bonds,
+                               correction("none")),
+               NumericalError);
+}
+
 TEST(SurfaceCorrections, far_from_surfaces_operators_are_those_of_own_second_moments)
 {
   const double h = 1. / 16;
