@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 
@@ -64,18 +65,18 @@ namespace plumbline::driver
       if (!value_of("Problem/solution").empty() || !value_of("Problem/load").empty())
         return options;
       const std::string model = value_of("Material/model");
+      const int dimension = std::atoi(value_of("Domain/dimension").c_str()); // 0: not given
       const auto &types = physics::kernel_types();
       const auto type = std::find_if(types.begin(), types.end(),
                                      [name = value_of("Kernel/type")](const auto &one)
                                      { return one.name == name; });
       const bool is_vector = !(model.empty() || model == scene::bond_based().name()) ||
                              (type != types.end() && type->structure == physics::Structure::tensor),
-                 is_in_space = value_of("Domain/dimension") == "3",
-                 is_on_line = value_of("Domain/dimension") == "1";
-      const std::string solution = is_in_space  ? (is_vector ? "x, y, z" : "x")
-                                   : is_on_line ? "sin(3*x)"
-                                   : is_vector  ? "sin(3*x)*cos(2*y), cos(x)*sin(3*y)"
-                                                : "sin(3*x)*cos(2*y)";
+                 is_in_space = dimension == 3;
+      const std::string solution = is_in_space      ? (is_vector ? "x, y, z" : "x")
+                                   : dimension == 1 ? "sin(3*x)"
+                                   : is_vector      ? "sin(3*x)*cos(2*y), cos(x)*sin(3*y)"
+                                                    : "sin(3*x)*cos(2*y)";
       options.overrides.push_back({"Problem/solution", solution});
       if (!is_in_space) // there nothing is solved
         options.assumption = "Problem/solution is not given: u = " + solution + " is solved for";
