@@ -124,7 +124,7 @@ namespace plumbline::app
       return 0;
     }
 
-    constexpr auto pdf_help = "Draw charts and maps as PDF, too, beside the SVG files";
+    constexpr auto pdf_help = "Also draw charts and maps as PDF, beside the SVG files";
 
     void add_run(CLI::App &app, Request &request)
     {

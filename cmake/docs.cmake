@@ -7,8 +7,8 @@ if(SPHINX)
     DEPENDS plumbline
     COMMENT "Documentation in build/*/docs/html/index.html"
     USES_TERMINAL)
-  if(TARGET _core) # whose functions are listed
-    add_dependencies(docs _core)
+  if(TARGET plumbline_python) # whose functions are listed
+    add_dependencies(docs plumbline_python)
   endif()
 else()
   add_custom_target(docs

@@ -28,7 +28,7 @@ namespace plumbline::driver
         summary = {};
     std::string file = analysis.name; ///< the stem of its journal and numbers
     bool goes_on = true;              ///< from what an interrupted command has left
-    /// Receives that, on the first rank.
+    /// Receives these earlier results, on the first rank.
     std::function<void(const study::StudyResults &earlier)> take_over = {};
     bool has_checkpoint = false;                            ///< see study::Checkpoints
     base::Communicator ranks = base::Communicator::alone(); ///< that share the work
@@ -36,11 +36,11 @@ namespace plumbline::driver
     std::string note = {};                                  ///< for people, before it begins
   };
 
-  /// A task that keeps its checkpoints, and other files of its own, where it is told.
+  /// Makes a task that writes its checkpoints and other files of its own to the given folder.
   using MakeTask = std::function<Task(const study::Checkpoints &)>;
 
-  /// The methods that a scene asks an analysis for; all that can be refused before its first
-  /// record is.
+  /// The methods that a scene names for an analysis, after all checks that come before the first
+  /// record.
   method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
                                 const method::Methods &available, unsigned int n_levels);
 

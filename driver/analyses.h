@@ -5,7 +5,7 @@
 
 namespace plumbline::driver
 {
-  /// What an analysis is asked for besides its scene.
+  /// What an analysis needs besides its scene.
   struct Asked
   {
     study::Checkpoints checkpoints;
@@ -25,9 +25,9 @@ namespace plumbline::driver
     bool takes_directions = false; ///< see Asked
   };
 
-  /// All of them but those of `run`; to add one is to add a row.
+  /// All analyses except those of `run`; to add one, add a row.
   const std::vector<AnalysisRow> &analyses();
 
-  /// Null: there is none of this name.
+  /// Null if there is none of this name.
   const AnalysisRow *find_analysis(const std::string &name);
 } // namespace plumbline::driver

@@ -5,7 +5,7 @@
 
 namespace plumbline::driver
 {
-  /// Those of both sides, meshfree rules first: the one place that knows both.
+  /// Meshfree and Galerkin methods, meshfree rules first: the one place that knows both.
   inline method::Methods all_methods()
   {
     method::Methods methods = meshfree::methods();

@@ -112,7 +112,7 @@ namespace plumbline::driver
       return task;
     }
 
-    /// Of the memory that each rank is expected to take, by method and level.
+    /// Prints the estimated memory of each rank by method and level.
     /// @throws InputError  where it is not estimated
     void print_estimate(const RunOptions &options, const scene::Scene &scene)
     {

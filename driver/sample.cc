@@ -52,7 +52,7 @@ namespace plumbline::driver
       return "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text;
     }
 
-    /// Whatever becomes of it.
+    /// A sample, with the reason if it fails.
     study::SampleRecord take(const scene::Scene &scene, const study::SamplingPlan &plan,
                              std::size_t sample, const report::SampleFiles &files)
     {
@@ -82,7 +82,7 @@ namespace plumbline::driver
       return 0;
     }
 
-    /// That take samples side by side, of each rank.
+    /// The number of processes of each rank that take samples at the same time.
     unsigned int n_processes(const SampleOptions &options, const study::SamplingPlan &plan)
     {
       return static_cast<unsigned int>(

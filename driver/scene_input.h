@@ -8,7 +8,7 @@
 
 namespace plumbline::driver
 {
-  /// What commands that read a scene have in common.
+  /// Options of all commands that read a scene.
   struct SceneOptions
   {
     std::string scene_file, output; ///< output empty: results/NAME of the scene

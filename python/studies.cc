@@ -44,6 +44,8 @@ namespace plumbline::python
       return methods;
     }
 
+    constexpr auto run_name = "run";
+
     /// What `plumbline run` does of a scene.
     study::Analysis static_or_in_time(const scene::Scene &scene, const method::Methods &available)
     {
@@ -78,6 +80,8 @@ namespace plumbline::python
         const method::Methods available = available_with(rules);
         scene::Scene scene = study::with_names_of(scene_of(text, overrides), available);
         const driver::AnalysisRow *const row = driver::find_analysis(name);
+        if (row == nullptr && name != run_name)
+          throw InputError("no analysis is called '" + name + "'");
         if (row != nullptr)
           scene = driver::without_reference(scene);
         const study::Analysis analysis =

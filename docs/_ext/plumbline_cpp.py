@@ -8,10 +8,10 @@ import shutil
 import subprocess
 import xml.etree.ElementTree as ET
 
-FOLDERS = ["lib", "reference", "meshfree", "check"]
+FOLDERS = ["lib", "reference", "meshfree", "check", "driver"]
 SETTINGS = {"GENERATE_HTML": "NO", "GENERATE_LATEX": "NO", "GENERATE_XML": "YES", "XML_PROGRAMLISTING": "NO",
             "XML_NS_MEMB_FILE_SCOPE": "YES", "RECURSIVE": "YES", "FILE_PATTERNS": "*.h", "QUIET": "YES",
-            "JAVADOC_AUTOBRIEF": "YES", "EXTRACT_ALL": "YES", "WARNINGS": "NO", "WARN_IF_UNDOCUMENTED": "NO",
+            "JAVADOC_AUTOBRIEF": "NO", "EXTRACT_ALL": "YES", "WARNINGS": "NO", "WARN_IF_UNDOCUMENTED": "NO",
             "WARN_IF_DOC_ERROR": "NO", "WARN_IF_INCOMPLETE_DOC": "NO", "WARN_NO_PARAMDOC": "NO", "MACRO_EXPANSION": "YES", "BUILTIN_STL_SUPPORT": "YES",
             "HIDE_UNDOC_RELATIONS": "YES"}
 TITLES = {"param": "Parameters", "return": "Returns", "throws": "Throws", "exception": "Throws"}
@@ -97,8 +97,8 @@ def declaration(member):
     if kind == "typedef":
         return f"{text}{start}{name} = {type_}"
     text += (type_ + " " if type_ else "") + name
-    if kind == "function":
-        text += member.findtext("argsstring") or "()"
+    if kind in ("function", "friend"):
+        text += member.findtext("argsstring") or ("()" if kind == "function" else "")
     elif kind == "variable" and member.findtext("initializer"):
         text += " " + plain(member.find("initializer"))
     return re.sub(r"< ", "<", re.sub(r" >", ">", text))
@@ -114,7 +114,7 @@ def members_of(compound):
 
 
 def described(members):
-    """Declarations that have one description stand in one block; that of a variable is a comment beside it."""
+    """Declarations with the same description share a block; that of a variable is a comment beside it."""
     lines, last = [], None
     for member in members:
         text, line = words(member), declaration(member)
@@ -149,10 +149,13 @@ class Reference:
                 self.headers[compound.find("location").get("file")] = compound
 
     def compound(self, name):
-        return ET.parse(self.xml / f"{name}.xml").getroot().find("compounddef")
+        text = (self.xml / f"{name}.xml").read_text(encoding="utf-8")
+        # Doxygen takes "--" for a dash, and "> 0" at the beginning for a quotation
+        text = re.sub(r"<blockquote><para>(<zwj/>)?", "&gt; ", text.replace("<ndash/>", "--"))
+        return ET.fromstring(re.sub(r"</para>\s*</blockquote>", "", text)).find("compounddef")
 
     def header(self, path, compound):
-        """A part: what is declared there."""
+        """A part of a page: the declarations of one header."""
         parts = [f"## {pathlib.PurePath(path).name}", f"`{path}`", *words(compound)]
         for inner in compound.findall("innerclass"):
             file = self.xml / f"{inner.get('refid')}.xml"
@@ -188,8 +191,8 @@ def write_pages(root, source, work):
         (target / f"{name}.md").write_text(text, encoding="utf-8")
         rows.append((name, folder, n))
     lines = ["# Classes and functions", "",
-             "All public declarations of the library with their comments, folder by folder. Shapes of arrays, units, "
-             "accuracy, sources and what is not covered are stated at each.", "", "| folder | headers |", "|---|---|",
+             "All public declarations of the library with their comments, folder by folder. They state shapes, units, "
+             "accuracy, sources and limits.", "", "| folder | headers |", "|---|---|",
              *(f"| [{folder}]({name}.md) | {n} |" for name, folder, n in rows), "", "```{toctree}", ":hidden:", "",
              *(name for name, _, _ in rows), "```", ""]
     (target / "index.md").write_text("\n".join(lines), encoding="utf-8")

@@ -15,7 +15,7 @@
         :columns: NAMES     only these columns, separated by ';'
 
 'python3 FILE' is a command, too. Each page has a working folder, with the folder scenes of the source tree; the tutorial
-has one for all of its pages. Commands of a page run in their order, and those of two pages at a time, while Sphinx reads
+has one for all of its pages. Commands of a page run in order, two pages at a time, while Sphinx reads
 the pages (Ahead).
 """
 import csv
@@ -132,11 +132,11 @@ class Ahead:
         for (kind, argument, options, content), outcome in actions:
             try:
                 outcome.set_result(ACTIONS[kind](folder, self.program, argument, options, content))
-            except Exception as error:  # pylint: disable=broad-except  # the directive tells it
+            except Exception as error:  # pylint: disable=broad-except  # the directive reports it
                 outcome.set_exception(error)
 
     def outcome(self, page, kind, argument, content):
-        """Of the next action of a page, which must be the one that Sphinx read there."""
+        """The outcome of the next action of a page, which must be the directive that Sphinx has just read."""
         (kind_found, argument_found, _, content_found), outcome = self.actions[page].pop(0)
         if (kind, argument) != (kind_found, argument_found) or (content and list(content) != content_found):
             raise CommandFailed(f"'{kind} {argument}' is read as '{kind_found} {argument_found}' by Ahead")
@@ -255,7 +255,9 @@ def begin(app):
 
 
 def end(app, _):
-    app.plumbline_ahead.pool.shutdown(cancel_futures=True)
+    ahead = getattr(app, "plumbline_ahead", None)  # none where Sphinx has failed before it read
+    if ahead:
+        ahead.pool.shutdown(cancel_futures=True)
 
 
 def setup(app):

@@ -64,7 +64,10 @@ def page(program):
                           capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"the Python package in {package} cannot be imported:\n{done.stderr}")
+    found = json.loads(done.stdout)
+    if not found:
+        raise SystemExit(f"the Python package in {package} is not whole; build the target plumbline_python")
     lines += ["The whole package, as `help()` shows it. [Python](python.md) has an overview and examples."]
-    for one in json.loads(done.stdout):
+    for one in found:
         lines += part(one, 2)
     return "\n".join(lines) + "\n"

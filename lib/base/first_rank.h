@@ -2,6 +2,8 @@
 
 #include "base/communicator.h"
 
+#include <functional>
+
 namespace plumbline::base
 {
   /// Do something on the first of these ranks. If it fails, all of them stop. @note Collective.

@@ -199,16 +199,13 @@ namespace plumbline::io
       }
     };
     for (const analysis::Record &run : earlier.records)
+    {
       if (run.failure.empty())
         take(run);
-    for (const study::ErrorEstimate &reference : earlier.references)
-    {
-      analysis::Record run;
-      run.key.method = study::reference_name;
-      run.key.problem = reference.problem;
-      run.key.series = reference.series;
-      run.key.level = reference.level;
-      take(run);
+      analysis::Record reference;
+      reference.key = run.key;
+      reference.key.method = study::reference_name;
+      take(reference);
     }
   }
 

@@ -34,7 +34,7 @@ namespace plumbline::io
     std::vector<dealii::Point<3>> of(const problem::Problem<3> &problem) const;
 
     /// Reads what an interrupted run has written of the levels that it had finished. A file that is
-    /// missing, or is of other points, is passed over.
+    /// missing, or has other points, is ignored.
     /// @param folder  as of write()
     void take_over(const study::StudyResults &earlier, const std::filesystem::path &folder);
 
@@ -51,7 +51,7 @@ namespace plumbline::io
     in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
     void read(bool is_in_space);
-    /// u in such a file, shape (n_points, n_components); empty where it is of other points.
+    /// u in such a file, shape (n_points, n_components); empty if it has other points.
     std::vector<double> values_in(const std::filesystem::path &file) const;
 
     std::string file_, key_;                  ///< key_: "Output/points = FILE: ", for messages

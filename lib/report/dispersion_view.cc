@@ -159,7 +159,7 @@ namespace plumbline::report
       return chart;
     }
 
-    /// Phase speeds that coincide in a chart of speeds differ here.
+    /// Shows differences of phase speeds whose curves coincide in the chart of speeds.
     DataChart deviations(const std::vector<const Record *> &finest,
                          const std::vector<MethodName> &methods, const std::string &waves)
     {

@@ -342,8 +342,8 @@ namespace plumbline::report
                               "start by, over the largest of them, at the finest level with the "
                               "shortest step."),
               stored = named("stored", "Change of the stored energy",
-                             "|E(t)/E(0) - 1| at the finest level, with all steps; what stays "
-                             "below 1e-16 is not drawn."),
+                             "|E(t)/E(0) - 1| at the finest level, with all steps; values "
+                             "below 1e-16 are not drawn."),
               history = named("history", "Errors versus time",
                               "Of displacements at the finest level with the shortest step.");
     const study::Axis axis =
@@ -353,7 +353,7 @@ namespace plumbline::report
     orders.plot.x_label = study::label(study::Axis::time_step, "");
     orders.plot.y_label = std::string("error in time, nodal L2") + in_unit_of_u;
     balance.plot.y_label = "imbalance over the largest energy";
-    stored.plot.y_label = "change of the stored energy, relative to the start";
+    stored.plot.y_label = "change of the stored energy, relative to its initial value";
     history.plot.y_label = "error, " + decisive(results) + in_unit_of_u;
     add(trends_chart(results, decisive(results), errors), 2);
     add(cost_chart(results), 2);

@@ -321,19 +321,26 @@ namespace plumbline::report
       };
       return std::any_of(results.records.begin(), results.records.end(), is_worse);
     }
-    /// "observed order in time (expected): explicit Euler 1.03 (1), ...".
+
+    /// "Observed order in time (expected): explicit Euler 1.03 (1), ...".
     std::string orders_answer(const StudyResults &results)
     {
       constexpr int n_digits = 3;
       std::string text;
-      std::set<std::string> methods;
+      std::set<std::string> methods, problems, series;
       for (const study::Trend &t : results.trends)
         if (t.axis == study::Axis::time_step)
+        {
           methods.insert(t.method);
+          problems.insert(t.problem);
+          series.insert(t.series);
+        }
       for (const study::Trend &t : results.trends)
         if (t.axis == study::Axis::time_step && !t.verdict.empty())
           text += (text.empty() ? "Observed order in time (expected order): " : ", ") +
-                  (methods.size() > 1 ? t.method + " with " : "") + t.variant + " " +
+                  (methods.size() > 1 ? t.method + " with " : "") + t.variant +
+                  (problems.size() > 1 ? ", " + t.problem : "") +
+                  (series.size() > 1 ? ", " + t.series : "") + " " +
                   base::to_text(t.rate, n_digits) + " (" +
                   std::to_string(analysis::scheme(t.variant).order) + ")";
       return text;

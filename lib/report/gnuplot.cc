@@ -37,6 +37,11 @@ namespace plumbline::report
   void run_gnuplot(const std::filesystem::path &folder, const std::string &script,
                    const std::vector<std::string> &pictures)
   {
+    for (const std::string &picture : pictures) // else older than the others
+    {
+      std::error_code error;
+      std::filesystem::remove((folder / picture).replace_extension(".pdf"), error);
+    }
     const std::filesystem::path log = folder / "gnuplot.log";
     const std::string program = "gnuplot", log_name = log.string(), place = folder.string();
     posix_spawn_file_actions_t actions;
@@ -53,14 +58,14 @@ namespace plumbline::report
     if (error != 0)
       throw NumericalError("charts cannot be drawn, gnuplot does not start (" +
                            std::string(std::strerror(error)) +
-                           "); apt-get install gnuplot-nox, then 'plumbline report' on the folder");
+                           "); apt-get install gnuplot-nox, then run the same command again");
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
       ;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
       throw NumericalError("charts cannot be drawn, gnuplot stopped on '" +
                            (folder / script).string() + "' and says why in '" + log_name +
-                           "'; mend that, then 'plumbline report' on the folder");
+                           "'; correct that, then run the same command again");
     for (const std::string &picture : pictures)
       check_picture(folder / picture);
     std::filesystem::remove(log);

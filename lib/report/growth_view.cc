@@ -190,7 +190,7 @@ namespace plumbline::report
       const std::size_t n = record.count("interfaces");
       return n == 0 ? ""
                     : " Bonds across " + counted(n, "line") +
-                          " have a G of their own (Fracture/interfaces).";
+                          " have their own G (Fracture/interfaces).";
     }
 
     /// With what makes it again.

@@ -123,7 +123,7 @@ namespace plumbline::report::page
       return tallies;
     }
 
-    /// It says more than that no method is known to converge.
+    /// Whether it says more than that no method is known to converge.
     bool is_informative(const Data &card)
     {
       return card["has_choices"] || card["has_good"] ||
@@ -131,7 +131,7 @@ namespace plumbline::report::page
              !card["field_only"].get<std::string>().empty();
     }
 
-    /// Whose largest error is least.
+    /// Methods with their largest errors, the smallest first.
     std::string ranking(const study::StudyResults &results, const std::vector<MethodName> &methods)
     {
       std::vector<std::pair<double, std::string>> largest;
@@ -239,7 +239,7 @@ namespace plumbline::report::page
       (i < n_open_cards ? cards : more).push_back(card(results, results.advice[i], names));
     const auto says_something = [](const Data &list)
     { return std::any_of(list.begin(), list.end(), is_informative); };
-    if (!says_something(cards) && !says_something(more)) // the answer has said it
+    if (!says_something(cards) && !says_something(more)) // the answer says it
       cards = more = Data::array();
     return {{"ranking", ""},
             {"is_between_models", false},

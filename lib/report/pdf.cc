@@ -18,7 +18,7 @@ namespace plumbline::report
 
   namespace
   {
-    constexpr double points_of_inch = 72;
+    constexpr double points_per_inch = 72;
 
     bool begins(const std::string &line, const std::string &with)
     {
@@ -27,7 +27,7 @@ namespace plumbline::report
 
     std::string in_inches(const std::string &pixels)
     {
-      return std::to_string(std::strtod(pixels.c_str(), nullptr) / points_of_inch) + "in";
+      return std::to_string(std::strtod(pixels.c_str(), nullptr) / points_per_inch) + "in";
     }
 
     std::string text_of(const fs::path &file)
@@ -39,16 +39,17 @@ namespace plumbline::report
     std::vector<fs::path> scripts_in(const fs::path &folder)
     {
       std::vector<fs::path> scripts;
-      for (const auto &one : fs::recursive_directory_iterator(folder))
+      for (const auto &one :
+           fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
         if (const std::string name = one.path().string();
             one.is_regular_file() && base::has_ending(name, ".gp") &&
-            !base::has_ending(name, ".pdf.gp")) // which a kill may leave
+            !base::has_ending(name, ".pdf.gp")) // left by a killed process
           scripts.push_back(one.path());
       std::sort(scripts.begin(), scripts.end());
       return scripts;
     }
 
-    /// Of "set output 'NAME.pdf'".
+    /// The names in "set output 'NAME.pdf'".
     std::vector<std::string> pictures_of(const std::string &script)
     {
       static const std::regex output("set output '(.*\\.pdf)'");
@@ -69,24 +70,27 @@ namespace plumbline::report
         "^set terminal svg size ([0-9.e+]+),([0-9.e+]+) dynamic (.*)$"),
         output("^(set output '.*)\\.svg'$");
     std::string script;
+    bool is_ours = false;
     std::istringstream in(svg_script);
     std::smatch found;
     for (std::string line; std::getline(in, line); script += line + "\n")
       if (begins(line, "set terminal") && std::regex_match(line, found, terminal))
+      {
+        is_ours = true;
         line = "set terminal pdfcairo size " + in_inches(found[1]) + "," + in_inches(found[2]) +
-               " " + found[3].str() + " fontscale .72 linewidth 2 dashlength 2";
+               " " + found[3].str() + " fontscale .75 linewidth 2 dashlength 2";
+      }
       else if (begins(line, "set output"))
         line = std::regex_replace(line, output, "$1.pdf'");
-    return script;
+    return is_ours ? script : "";
   }
 
   void require_pdf()
   {
-    // gnuplot fails on a terminal that it does not have
+    // gnuplot exits with an error if it lacks the terminal
     if (std::system("gnuplot -e 'set terminal pdfcairo' >/dev/null 2>&1") != 0)
-      throw InputError(
-          "--pdf needs gnuplot with the terminal pdfcairo, which is not there; apt-get "
-          "install gnuplot-nox, or leave out --pdf");
+      throw InputError("--pdf needs gnuplot with the terminal pdfcairo, which is missing; apt-get "
+                       "install gnuplot-nox, or leave out --pdf");
   }
 
   void draw_pdf(const fs::path &folder)

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-// Charts and maps as PDF, for papers: gnuplot draws its own scripts again, on its terminal
+// Charts and maps as PDF, for papers: gnuplot runs the same scripts again, with its terminal
 // pdfcairo.
 namespace plumbline::report
 {
@@ -14,7 +14,7 @@ namespace plumbline::report
   /// of SVG.
   std::string pdf_script(const std::string &svg_script);
 
-  /// Beside each SVG of the gnuplot scripts in a folder and the folders in it: the same as PDF.
+  /// Draws a PDF beside each SVG of the gnuplot scripts in a folder and its subfolders.
   /// @throws NumericalError  a picture cannot be drawn
   void draw_pdf(const std::filesystem::path &folder);
 } // namespace plumbline::report

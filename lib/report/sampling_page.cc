@@ -34,8 +34,8 @@ namespace plumbline::report
     const char *const words_of_interpolant =
         "Error of the interpolant: the maximum of ‖u(ξ) − u^Q(ξ)‖, L2, over at most 32 samples of "
         "the last set that the set does not contain; u^Q is the polynomial through the samples of "
-        "the set (Fan et al. 2022, section 3.2). Lebesgue constant: bound on how much u^Q "
-        "amplifies errors of samples; of two numbers the first was found, the second is a bound.";
+        "the set (Fan et al. 2022, section 3.2). Lebesgue constant: largest factor by which u^Q "
+        "amplifies errors of samples; of two values the second is an upper bound.";
 
     bool has_interpolant(const SamplingResults &results)
     {
@@ -167,7 +167,7 @@ namespace plumbline::report
         text += (i == 0 ? "Not as expected: " : "; ") + faults[i] +
                 (i + 1 == faults.size() ? ". " : "");
       if (!text.empty())
-        text.pop_back(); // the blank after the last sentence
+        text.pop_back(); // the space after the last sentence
       return text.empty() ? "All samples have been computed." : text;
     }
 

@@ -72,12 +72,11 @@ namespace plumbline::report
                          });
     }
 
-    /// "stable: FA, Q1; unstable: OPT", with series or quantities where these differ.
+    /// "stable: FA, Q1; unstable: OPT", with cases, series or quantities where these differ.
     std::string methods_by_verdict(const Table &verdicts)
     {
       const std::size_t method = column(verdicts, "method"), verdict = column(verdicts, "verdict"),
-                        n = verdicts.columns.size(), scheme = column(verdicts, "scheme"),
-                        series = std::min(column(verdicts, "series"), column(verdicts, "of"));
+                        n = verdicts.columns.size(), scheme = column(verdicts, "scheme");
       if (std::max(method, verdict) == n)
         return {};
       const auto varies = [&](std::size_t column)
@@ -87,7 +86,11 @@ namespace plumbline::report
                                            return row[column].text != verdicts.rows[0][column].text;
                                          });
       };
-      const bool has_series = varies(series), has_schemes = varies(scheme);
+      const bool has_schemes = varies(scheme);
+      std::vector<std::size_t> places; // that verdicts may differ in
+      for (const char *const head : {"case", "problem", "series", "of"})
+        if (varies(column(verdicts, head)))
+          places.push_back(column(verdicts, head));
       std::vector<std::size_t> of_name = {method};
       if (has_schemes)
         of_name.push_back(scheme);
@@ -95,10 +98,13 @@ namespace plumbline::report
       std::set<std::string> known;
       for (const auto &row : verdicts.rows)
       {
-        const bool is_split = has_series && !is_unanimous(verdicts, row, of_name, verdict);
+        const bool is_split = !places.empty() && !is_unanimous(verdicts, row, of_name, verdict);
+        std::string place;
+        for (const std::size_t one : places)
+          place += (place.empty() ? "" : ", ") + row[one].text;
         const std::string name = row[method].text +
                                  (has_schemes ? " with " + row[scheme].text : "") +
-                                 (is_split ? " (" + row[series].text + ")" : "");
+                                 (is_split ? " (" + place + ")" : "");
         if (!known.insert(name).second)
           continue;
         const auto same =

@@ -45,7 +45,7 @@ namespace plumbline::study
     }
 
     /// Values at nodes in the order of others, which are the same ones. Nodes of discontinuous
-    /// spaces lie where others are; they have that order.
+    /// spaces coincide; such values must be in that order already.
     /// @param h  of the level: nodes are farther apart than a thousandth of it
     template <int dim>
     std::vector<double> in_order(const std::vector<dealii::Point<dim>> &order,
@@ -66,7 +66,7 @@ namespace plumbline::study
       std::map<std::array<long long, dim>, std::size_t> place;
       for (std::size_t i = 0; i < nodes.size(); ++i)
         if (!place.emplace(key(nodes[i]), i).second)
-          throw NumericalError("the norm energy: two nodes share a place and cannot be told apart; "
+          throw NumericalError("the norm energy: two nodes coincide and cannot be distinguished; "
                                "write nodal or averages norms");
       const std::size_t n_components = nodes.empty() ? 1 : values.size() / nodes.size();
       std::vector<double> result;

@@ -10,11 +10,11 @@ namespace plumbline::study
   namespace
   {
     /// A field may hide what is wrong, never a proof; and a proof settles what errors leave open.
-    /// While errors are as large as wrong moments make them, nothing is hidden yet: errors of other
+    /// While errors are as large as wrong moments make them, the field hides none: errors of other
     /// origin that have the opposite sign fall before they show.
     void settle(Trend &trend)
     {
-      constexpr double seen = 1. / 3; // of the error that wrong moments make
+      constexpr double seen = 1. / 3; // of the error that wrong moments cause
       using Answer = LimitProof::Answer;
       const Answer answer = trend.proof.answer;
       if (answer == Answer::incompatible && trend.outcome == Outcome::converges)

@@ -51,7 +51,7 @@ namespace plumbline::study
                       (scene.time.is_dynamic() ? " and no error is estimated (Reference/estimate)"
                                                : "")
             : scene.domain.dimension == 1
-                ? ", because problems on a line are not distributed; use one rank"
+                ? ", because one-dimensional problems are not distributed; use one rank"
                 : ", because problems on lattices in the plane are not distributed; use one rank, "
                   "or write Domain/mesh = squares, which is distributed");
   }

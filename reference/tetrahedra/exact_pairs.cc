@@ -264,7 +264,7 @@ namespace plumbline::reference
     Places edge_rows, edge_columns, vertex_rows, vertices, faces;
     using Values = std::array<std::vector<SharedSum>, 2>; ///< of regular and compact functions
     Values of_edges, of_vertices, of_face;
-    /// With its places in the tables' columns.
+    /// A second face, with its columns in the tables.
     struct Second
     {
       std::array<Vector<double>, 3> x;
@@ -660,7 +660,7 @@ namespace plumbline::reference
       return sum;
     }
 
-    /// Of a face, in the tables.
+    /// The rows of a face in the tables.
     struct Rows
     {
       std::array<SharedSum *, 3> of_edges{}, of_vertices{};

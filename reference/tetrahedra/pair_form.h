@@ -84,7 +84,7 @@ namespace plumbline::reference
     bool is_all_parallel() const { return is_parallel[0] && is_parallel[1] && is_parallel[2]; }
   };
 
-  /// Makes edges that are parallel to the digits of double so to all digits, by a move of a
+  /// Makes edges that are parallel in double precision parallel to all digits, by moving a
   /// vertex of g by a rounding of its coordinates. Faces that are not parallel have at most
   /// one such pair.
   /// @return  whether there is one

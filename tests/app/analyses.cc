@@ -12,5 +12,5 @@ TEST(Analyses, are_called_as_their_commands)
     EXPECT_EQ(driver::find_analysis(row.name), &row);
     app::expect_found(app::run("help " + row.name).out, row.help);
   }
-  EXPECT_EQ(driver::find_analysis("run"), nullptr); // of two analyses, by the scene's time
+  EXPECT_EQ(driver::find_analysis("run"), nullptr); // it has two analyses; the scene's time decides
 }

@@ -1,4 +1,4 @@
-// What exact integrals over pairs of faces are made of: numbers of two parts, whether faces see
+// The parts of exact integrals over pairs of faces: numbers of two parts, whether faces see
 // each other, edges made parallel to all digits, and many pairs at a time against one at a time
 // with all digits. And that entries do not depend on the number of threads.
 #include "reference/tetrahedra/assembly.h"
@@ -46,7 +46,7 @@ namespace
     return face;
   }
 
-  /// Sides numbered anew.
+  /// The face with its sides renumbered.
   NumberedFace numbered(const PairFace &face, unsigned int number)
   {
     NumberedFace result;
@@ -164,7 +164,7 @@ TEST(ParallelEdges, become_so_to_all_digits)
     ASSERT_TRUE(align(f, g));
     EXPECT_LT(static_cast<double>(f.edge(0).cross(g.edge(1)).norm()), 1e-36);
     EXPECT_GT(static_cast<double>(f.edge(0).cross(before.edge(1)).norm()), 1e-20);
-    // one vertex moves by a rounding, and it is none that both have
+    // one vertex moves by a rounding; it is not a shared one
     double change = 0;
     for (unsigned int k = 0; k < 3; ++k)
     {

@@ -45,8 +45,10 @@ TEST(Pdf, takes_the_terminal_and_the_name_of_the_file_alone_from_a_script)
                        "set output 'a.svg'\n" +
                        title),
             "set terminal pdfcairo size 1.000000in,2.000000in enhanced font 'sans-serif,14' "
-            "fontscale .72 linewidth 2 dashlength 2\nset output 'a.pdf'\n" +
+            "fontscale .75 linewidth 2 dashlength 2\nset output 'a.pdf'\n" +
                 title);
+  EXPECT_EQ(pdf_script("set terminal svg\nset output 'a.svg'\n"), ""); // of somebody else
+  EXPECT_EQ(pdf_script("set output 'a.pdf'\n"), "");
 }
 
 TEST(Pdf, is_refused_with_a_remedy_where_gnuplot_has_no_terminal_for_it)

@@ -138,3 +138,16 @@ TEST(StudyText, names_series_and_quantities_of_a_method_where_its_verdicts_diffe
   add("Q1", "m = 4", "undecided");
   EXPECT_EQ(answer_of(view), "Not AC: FA; AC: Q1 (m = 3); undecided: Q1 (m = 4)");
 }
+
+TEST(StudyText, names_cases_whose_verdicts_differ_and_drops_none)
+{
+  report::View view{"Transient analysis"};
+  view.verdicts.columns = {{"method"}, {"case"}, {"of"}, {"verdict"}};
+  for (const auto &[problem, verdict] :
+       {std::pair("linear", "AC for this field only"), std::pair("wave", "not AC")})
+    for (const std::string of : {"u", "v"})
+      view.verdicts.rows.push_back(
+          {text_cell("FA"), text_cell(problem), text_cell(of), text_cell(verdict)});
+  EXPECT_EQ(answer_of(view), "AC for this field only: FA (linear, u), FA (linear, v); not AC: "
+                             "FA (wave, u), FA (wave, v)");
+}
