@@ -200,7 +200,7 @@ namespace plumbline::meshfree
                                                               const SurfaceCorrection &correction,
                                                               const problem::Problem<2> &problem)
   {
-    if (problem.settings.solver.operator_backend == OperatorBackend::fft)
+    if (problem.settings.solver.operator_backend == algebra::OperatorBackend::fft)
       throw InputError(
           "Solver/operator = fft does not support surface corrections, whose matrix is "
           "factored; write automatic or direct");
