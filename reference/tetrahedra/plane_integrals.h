@@ -513,7 +513,7 @@ namespace plumbline::reference
         state.kappa = side.kappa;
         if (side.kappa == 0) // of which nothing is seen, but the foot may be on it
         {
-          state.is_subtracted = true;
+          state.is_subtracted = state.is_subtracted || is_near_foot(side);
           continue;
         }
         const Real eta = side.kappa * side.kappa + distance_ * distance_;
@@ -530,6 +530,15 @@ namespace plumbline::reference
         state.leave(to, side.to);
       }
       finish(state, is_inside, sum);
+    }
+
+    /// Of a side in line with the foot, whether it is no farther from the foot than the origin is.
+    /// If it is farther, the foot is outside the polygon for sure, and H(d) must not be subtracted:
+    /// where d is 0 but for round-off, H(d) is huge, and so is its product with the round-off of
+    /// angles, which add up to 0.
+    bool is_near_foot(const PlaneSide<Real> &side) const
+    {
+      return side.from <= distance_ && side.to >= -distance_;
     }
 
     struct Compact

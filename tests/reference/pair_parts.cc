@@ -1,6 +1,7 @@
 // The parts of exact integrals over pairs of faces: numbers of two parts, whether faces see
-// each other, edges made parallel to all digits, and many pairs at a time against one at a time
-// with all digits. And that entries do not depend on the number of threads.
+// each other, edges made parallel to all digits, polygons in planes, and many pairs at a time
+// against one at a time with all digits, also where vertices are in line. And that entries do not
+// depend on the number of threads.
 #include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/exact_pairs.h"
 #include "reference/tetrahedra/pair_form.h"
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -81,6 +83,52 @@ namespace
       faces.emplace_back(y, names);
     }
     return faces;
+  }
+
+  bool has(const SpaceFace &face, unsigned int dof)
+  {
+    return std::any_of(face.jumps.begin(), face.jumps.end(),
+                       [dof](const SpaceFace::Jump &jump) { return jump.dof == dof; });
+  }
+
+  /// Those on which an unknown has a jump [horizons].
+  std::vector<PairFace> faces_at(const TetrahedralMesh &mesh, const std::vector<SpaceFace> &all,
+                                 unsigned int dof, double horizon)
+  {
+    std::vector<PairFace> faces;
+    for (const SpaceFace &face : all)
+      if (has(face, dof))
+      {
+        Triangle x;
+        for (unsigned int k = 0; k < 3; ++k)
+          x[k] = Point<3>((mesh.vertices[face.vertices[k]] - mesh.vertices.front()) / horizon);
+        faces.emplace_back(x, face.vertices);
+      }
+    return faces;
+  }
+
+  std::vector<double> jumps_of(const std::vector<SpaceFace> &all, unsigned int dof)
+  {
+    std::vector<double> jumps;
+    for (const SpaceFace &face : all)
+      for (const SpaceFace::Jump &jump : face.jumps)
+        if (jump.dof == dof)
+          jumps.push_back(jump.value);
+    return jumps;
+  }
+
+  /// Whether a vertex of one is in line with an edge of the other.
+  bool have_line(const PairFace &f, const PairFace &g)
+  {
+    for (const auto &[one, other] : {std::pair(&f, &g), std::pair(&g, &f)})
+      for (const Point<3> &x : one->vertices())
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const Point<3> &start = other->vertices()[k], &end = other->vertices()[(k + 1) % 3];
+          if (cross_product_3d(end - start, x - start).norm() == 0)
+            return true;
+        }
+    return false;
   }
 } // namespace
 
@@ -244,6 +292,89 @@ TEST(ManyPairs, of_long_polynomials_are_those_of_single_pairs)
     largest = std::max(largest, std::abs(integrals[k].value));
   }
   EXPECT_GT(largest, 0);
+}
+
+TEST(PlaneIntegrals, see_no_foot_that_is_on_the_line_of_a_side_but_beyond_it)
+{
+  const auto kernel =
+      physics::Kernel<3>::with_diffusion(physics::kernel_type("constant").profile, 1, 1);
+  std::vector<PotentialPart<double>> parts;
+  for (const PotentialTerms &part : FacePotential::terms(kernel))
+    parts.emplace_back(part, 3);
+  using Corner = Vector<double>;
+  const auto integral = [&](double start, double distance, double off)
+  {
+    const std::array<Corner, 3> corners = {
+        {{start, off, distance}, {start + .3, off, distance}, {start + .17, .23 + off, distance}}};
+    return PlaneIntegral<double>(corners.data(), 3, {0, 0, 1}).compact(parts).value;
+  };
+  for (const double start : {.2, .37, -.6, -.9})
+    for (const double distance : {1e-17, 1e-20, 1e-9})
+      EXPECT_NEAR(integral(start, distance, 0), integral(start, 0, 0),
+                  1e-13 * std::abs(integral(start, 0, 0)))
+          << start << " " << distance;
+  // on the side, or at its ends
+  constexpr double unit = 1e-17;
+  for (const double start : {-.4, -.3 - unit, -.3, -.3 + unit, -.1, -unit, 0., unit, .1, .3, .5})
+    for (const double off : {-1e-13, 1e-13})
+      EXPECT_NEAR(integral(start, .3, 0), integral(start, .3, off), 1e-11) << start << " " << off;
+}
+
+/// Edges of surfaces, which stay, are in line with vertices of others. The entry's pairs are all
+/// taken alone, and those in line with all digits, too.
+TEST(ManyPairs, have_all_digits_where_vertices_are_in_line)
+{
+  const auto moved = geometry::with_moved_vertices(
+      geometry::six_per_cube({{{{Point<3>(), Point<3>(6, 6, 6)}}, {}}, 1}, 1), .2, 1);
+  const TetrahedralSpace space(std::make_shared<const TetrahedralMesh>(moved), true);
+  constexpr double horizon = 2, tolerance = 1e-15;
+  const auto kernel =
+      physics::Kernel<3>::with_diffusion(physics::kernel_type("constant").profile, horizon, 1);
+  constexpr unsigned int row = 0, column = 318; // more than a horizon apart
+  const std::vector<SpaceFace> all = make_faces(space);
+  const std::vector<PairFace> first = faces_at(moved, all, row, horizon),
+                              second = faces_at(moved, all, column, horizon);
+  std::vector<NumberedFace> numbers;
+  for (const std::vector<PairFace> *faces : {&first, &second})
+    for (const PairFace &face : *faces)
+      numbers.push_back(numbered(face, static_cast<unsigned int>(numbers.size())));
+  std::vector<const NumberedFace *> others;
+  for (std::size_t k = first.size(); k < numbers.size(); ++k)
+    others.push_back(&numbers[k]);
+  const std::vector<double> jumps = jumps_of(all, row), jumps_of_others = jumps_of(all, column);
+  const ExactPairs exact(kernel, Kind::biharmonic, tolerance);
+  double expected = 0;
+  unsigned int n_in_line = 0;
+  for (std::size_t j = 0; j < first.size(); ++j)
+  {
+    ExactPairs::Shared shared;
+    shared.start({&numbers[j]}, others);
+    std::vector<ExactPairs::Integral> integrals;
+    exact(numbers[j], others, shared, integrals);
+    for (std::size_t k = 0; k < second.size(); ++k)
+    {
+      double value = exact(first[j], second[k]).value;
+      expected -= jumps[j] * jumps_of_others[k] * value;
+      EXPECT_NEAR(integrals[k].value, value, tolerance) << j << " " << k;
+      if (are_out_of_reach(first[j], second[k]) || !have_line(first[j], second[k]))
+        continue;
+      value = exact.precise(first[j], second[k]);
+      EXPECT_NEAR(integrals[k].value, value, tolerance) << j << " " << k;
+      ++n_in_line;
+    }
+  }
+  EXPECT_GT(n_in_line, 20u);
+  expected *= kernel.constant() * std::pow(horizon, 8);
+  const algebra::CsrMatrix matrix = assemble_by_faces(space, kernel, 1, FaceRule::exact());
+  double entry = 0, largest = 0;
+  for (std::size_t k = 0; k < matrix.value.size(); ++k)
+  {
+    largest = std::max(largest, std::abs(matrix.value[k]));
+    if (matrix.column[k] == column)
+      entry = matrix.value[k];
+  }
+  EXPECT_GT(std::abs(expected), 1e-6 * largest);
+  EXPECT_NEAR(entry, expected, 1e-13 * largest);
 }
 
 TEST(ManyPairs, are_the_same_on_any_number_of_threads)
