@@ -377,6 +377,30 @@ TEST(ManyPairs, have_all_digits_where_vertices_are_in_line)
   EXPECT_NEAR(entry, expected, 1e-13 * largest);
 }
 
+/// Nearby faces of a mesh, whose values in double of regular functions cancel.
+TEST(ManyPairs, with_more_digits_take_values_in_double_that_are_exact_enough)
+{
+  constexpr double third = 1. / 3, tolerance = 2e-16;
+  const PairFace f({Point<3>(5 * third, third, 2 * third),
+                    Point<3>(1.6314785301685331, .61231181273857749, .65287743015214794),
+                    Point<3>(1.9629499397861461, .61376346827795103, .94311522323017316)},
+                   {0, 1, 2}),
+      g({Point<3>(1.0333525749854742, .68320399777342866, 1.0651814783302447),
+         Point<3>(1.3547514299551644, .69975542041162653, .97313270646457861),
+         Point<3>(1.3670384466958541, .99041215870529409, 1.38417891052862)},
+        {3, 4, 5});
+  const std::array<NumberedFace, 2> both = {numbered(f, 0), numbered(g, 1)};
+  const auto kernel = physics::Kernel<3>::with_diffusion(physics::kernel_type("1/r").profile, 1, 1);
+  const ExactPairs exact(kernel, Kind::biharmonic, tolerance);
+  ExactPairs::Shared shared;
+  shared.start({&both[0]}, {&both[1]});
+  std::vector<ExactPairs::Integral> integrals;
+  exact(both[0], {&both[1]}, shared, integrals);
+  EXPECT_EQ(integrals.front().level, 1u);
+  EXPECT_NEAR(integrals.front().value, exact.precise(f, g),
+              integrals.front().error + 1e-3 * tolerance);
+}
+
 TEST(ManyPairs, are_the_same_on_any_number_of_threads)
 {
   const auto moved = geometry::with_moved_vertices(
