@@ -131,10 +131,11 @@ def sketch(values, folder):
     if values.get("Domain/dimension") == "3":  # its section across z
         domain = [[corner[:2] for corner in box] for box in domain]
     if values.get("Domain/dimension") == "1":
-        domain = [[(a[0], 0), (b[0], (b[0] - a[0]) / 8)] for a, b in domain]
+        domain = [[(a[0], 0), (b[0], h)] for a, b in domain]
     boundary = values.get("Domain/boundary", "constrained")
     is_strip = "Crack/notch" in values
     layer = 0 if boundary in ("free", "periodic") else horizon
+    up = 0 if values.get("Domain/dimension") == "1" else layer
 
     holes = boxes(values.get("Domain/holes", ""))
     cells = []
@@ -142,7 +143,7 @@ def sketch(values, folder):
         cells = physical_cells(folder / mesh, h, horizon, 3 if values.get("Domain/dimension") == "3" else 2)
         corners = [point for _, cell in cells for point in cell]
     else:
-        corners = [(p[0] + s * layer, p[1] + s * layer) for box in domain for p, s in zip(box, (-1, 1))]
+        corners = [(p[0] + s * layer, p[1] + s * up) for box in domain for p, s in zip(box, (-1, 1))]
     lower = tuple(min(p[i] for p in corners) for i in (0, 1))
     upper = tuple(max(p[i] for p in corners) for i in (0, 1))
     drawing = Drawing(lower, upper)
@@ -155,7 +156,7 @@ def sketch(values, folder):
     else:
         if layer and not is_strip:
             for a, b in domain:
-                drawing.box((a[0] - layer, a[1] - layer), (b[0] + layer, b[1] + layer), f'fill="{COLOURS["collar"]}"')
+                drawing.box((a[0] - layer, a[1] - up), (b[0] + layer, b[1] + up), f'fill="{COLOURS["collar"]}"')
         if is_strip:
             for a, b in domain:
                 drawing.box((a[0], a[1] - layer), (b[0], b[1] + layer), f'fill="{COLOURS["grips"]}"')
@@ -233,7 +234,7 @@ def card(path, root, pictures):
 
 TITLES = {
     "ipa_ac": "Rules on lattices (Yang & Yin)", "lps": "State-based solids, cracks and free surfaces (Fan et al. 2022)",
-    "meshes": "Meshes, scattered nodes and references", "state_based": "Variational state-based bars",
+    "line": "One dimension", "meshes": "Meshes, scattered nodes and references", "state_based": "Variational state-based bars",
     "dynamics": "Transient analysis", "waves": "Dispersion", "griffith": "Dynamic fracture",
     "fracture": "Quasi-static fracture and stationary cracks", "random": "Random fields and uncertainty quantification",
     "glass_ceramics": "Toughness of microstructures", "three_d": "Three dimensions", "certified": "Certified benchmarks",

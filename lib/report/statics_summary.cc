@@ -35,15 +35,17 @@ namespace plumbline::report
     std::string reason_of(const study::Trend &trend)
     {
       constexpr int n_digits = 3;
-      if (trend.proof.reason.empty() || trend.outcome == Outcome::undecided ||
-          trend.outcome == Outcome::failed || trend.values.empty())
+      const bool is_open = trend.outcome == Outcome::undecided;
+      if (trend.outcome == Outcome::failed || trend.values.empty() ||
+          (trend.proof.reason.empty() && !is_open) ||
+          (is_open && trend.reason.find("last error") != std::string::npos))
         return trend.reason;
       std::string text = "last error " + base::to_text(trend.values.back(), n_digits);
       if (trend.values.back() <= trend.round_off)
         text += " (round-off)";
       else if (const double rate = study::last_rate(trend); std::isfinite(rate))
         text += ", rate " + base::to_text(rate, n_digits);
-      return text + "; " + trend.proof.reason;
+      return text + "; " + (is_open ? trend.reason : trend.proof.reason);
     }
 
     /// A row for each method, problem and series.

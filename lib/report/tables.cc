@@ -208,14 +208,15 @@ namespace plumbline::report
                      "estimate, field",
                      "domain"};
     for (const study::ErrorEstimate &estimate : estimates)
-      table.rows.push_back(
-          {text_cell(estimate.method), text_cell(estimate.problem), text_cell(estimate.series),
-           count_cell(estimate.level), number_cell(estimate.h), number_cell(estimate.horizon),
-           error_cell(estimate.h_change), error_cell(estimate.coarse_change),
-           number_cell(estimate.rate), error_cell(estimate.p_change),
-           error_cell(estimate.outer_change), error_cell(estimate.estimate),
-           count_cell(estimate.certified_digits), error_cell(estimate.field_estimate),
-           text_cell(estimate.is_of_polygon ? "the polygon alone" : "as described")});
+      if (estimate.estimate > 0) // else none was asked for
+        table.rows.push_back(
+            {text_cell(estimate.method), text_cell(estimate.problem), text_cell(estimate.series),
+             count_cell(estimate.level), number_cell(estimate.h), number_cell(estimate.horizon),
+             error_cell(estimate.h_change), error_cell(estimate.coarse_change),
+             number_cell(estimate.rate), error_cell(estimate.p_change),
+             error_cell(estimate.outer_change), error_cell(estimate.estimate),
+             count_cell(estimate.certified_digits), error_cell(estimate.field_estimate),
+             text_cell(estimate.is_of_polygon ? "the polygon alone" : "as described")});
     return table;
   }
 
@@ -371,8 +372,8 @@ namespace plumbline::report
     write_table(cost_table(results), folder / "cost");
     auto estimates = results.references;
     estimates.insert(estimates.end(), results.estimates.begin(), results.estimates.end());
-    if (!estimates.empty())
-      write_table(estimate_table(estimates), folder / "estimates");
+    if (const Table table = estimate_table(estimates); !table.rows.empty())
+      write_table(table, folder / "estimates");
     if (const Table tips = tip_force_table(results); !tips.rows.empty())
       write_table(tips, folder / "tip_forces");
     if (const Table bounds = bound_table(results); !bounds.rows.empty())

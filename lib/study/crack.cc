@@ -221,7 +221,8 @@ namespace plumbline::study
                       CrackMotion &motion)
     {
       using Outcome = scene::CrackOutcome;
-      constexpr double few_horizons = 2, few_crossings = 10, few_transits = 2, to_arrest = 4;
+      constexpr double few_horizons = 2, to_branch = 4; // horizons
+      constexpr double few_crossings = 10, few_transits = 2, to_arrest = 4;
       const auto text = [](double value) { return base::to_text(value, 3); };
       const double time = all.back().t, horizon = scales.horizon;
       const double crossings = time / scales.crossing(), transits = time / scales.transit();
@@ -233,12 +234,18 @@ namespace plumbline::study
         motion.reason = reason;
       };
       const double branched = branched_way(before_end);
-      if (branched >= few_horizons * horizon)
+      const std::string beside = // cracks come and go side by side where they run fast
+          branched < horizon
+              ? ""
+              : ", for " + text(branched / horizon) +
+                    " horizons with a second crack beside it (a branch: " + text(to_branch) +
+                    " or more)";
+      if (branched >= to_branch * horizon)
         conclude(Outcome::branches,
                  "two cracks or more run side by side while the tip advances by " +
                      text(branched / horizon) + " horizons");
       else if (before_end.size() < all.size())
-        conclude(Outcome::runs, "the tip comes to the end of the strip");
+        conclude(Outcome::runs, "the tip comes to the end of the strip" + beside);
       else if (crossings < few_crossings || transits < few_transits)
         conclude(Outcome::too_short, length + "; take at least " + text(few_crossings) + " and " +
                                          text(few_transits) + ": Time/final time = " +
@@ -247,7 +254,7 @@ namespace plumbline::study
                                          " or more");
       else if (motion.advance >= few_horizons * horizon && last_way(all, .2) >= scales.h)
         conclude(Outcome::runs, "the tip advances by " + text(motion.advance / horizon) +
-                                    " horizons and still moves at the final time");
+                                    " horizons and still moves at the final time" + beside);
       else if (last_way(all, .5) >= scales.h)
         conclude(Outcome::too_short,
                  "the tip advances by " + text(motion.advance / horizon) +
@@ -338,7 +345,8 @@ namespace plumbline::study
   std::vector<std::string> left_out_of_cracks()
   {
     return {
-        "two dimensions, one lattice, λ = μ: Poisson's ratio is 1/4 in plane strain",
+        "two dimensions, one lattice, λ = μ: Poisson's ratio is 1/4 in plane strain, 1/3 in plane "
+        "stress",
         "double-well bonds are reversible: an unloaded crack closes and its bonds are intact "
         "again; only the notch is cut permanently, which the paper's model does not have",
         "no contact forces between crack faces, except those of their bonds",

@@ -112,7 +112,8 @@ namespace plumbline::study
   /// The line is fitted by least squares where the tip is between 1/5 and 4/5 of its advance. What
   /// comes when the tip is within a horizon of the strip's end is left out of speeds and branches.
   /// The first that holds is the outcome:
-  /// - branches: the tip advances by two horizons or more while there are two cracks side by side;
+  /// - branches: the tip advances by four horizons or more while there are two cracks side by side.
+  ///   Fast cracks have others beside them for two horizons or three, which depends on the step;
   /// - runs: it comes within a horizon of the strip's end;
   /// - too short to tell: the time is less than ten crossings of a horizon, or two transits;
   /// - runs: it advances by two horizons or more, and by h or more in the last fifth of the time;

@@ -242,7 +242,8 @@ namespace plumbline::study
       record.set("strained W H / G_c,h", scene.crack.load * own.energy / own.toughness);
       record.set("strain", strain);
       record.set("asymmetry", strip->asymmetry(history.last.u));
-      record.set("time step", plan.step, "time");
+      // it divides the time between samples
+      record.set("time step", plan.final_time / static_cast<double>(history.n_steps), "time");
       if (plan.critical_step)
         record.set("critical step", *plan.critical_step, "time");
       record.set("steps", static_cast<double>(history.n_steps));

@@ -74,9 +74,10 @@ namespace plumbline::meshfree
     if (!(energy >= 0) || !(energy <= largest))
     {
       std::ostringstream message;
-      message << "W H = " << energy << " G_c is " << energy / toughness_
-              << " times the toughness; bonds soften all over the strip beyond "
-              << largest / toughness_ << ": lower the load or the horizon, or raise the height";
+      message << "the strained strip stores W H = " << energy << ", " << energy / toughness_
+              << " times its toughness G_c = " << toughness_ << "; beyond " << largest / toughness_
+              << " times G_c bonds soften everywhere, not only at the tip: lower Crack/load or the "
+                 "horizon (Study/h, Study/m), or make the strip higher (Domain/boxes)";
       throw InputError(message.str());
     }
     return bisect(0, most, [&](double g) { return density(g) * height() - energy; });

@@ -690,13 +690,6 @@ namespace plumbline::reference
     Shared::Tables &tables = *shared.tables_;
     tables.look_at(f);
     result.assign(others.size(), {});
-    if (!std::all_of(parts_->usual.begin(), parts_->usual.end(),
-                     [](const auto &part) { return part.has_forms(); }))
-    {
-      for (std::size_t k = 0; k < others.size(); ++k)
-        result[k] = (*this)(f, *others[k], shared);
-      return;
-    }
     std::vector<Batch::Way> ways;
     std::vector<Sum<double>> sums;
     Batch(*parts_, f, true, tables).run(others, ways, sums);

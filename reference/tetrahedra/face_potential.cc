@@ -9,6 +9,7 @@ namespace plumbline::reference
   namespace
   {
     constexpr int lowest_exponent = -1;
+    constexpr int highest_exponent = 50; // 64 coefficients of antiderivatives have room
 
     /// ∫_0^end t^n γ dt, of γ = a t^k. @pre n + k > -1
     double moment(const PotentialTerms::Term &term, int n, double end)
@@ -132,6 +133,12 @@ namespace plumbline::reference
       return "entries on tetrahedra are for kernels that are sums of powers" + remedy;
     if (kernel.profile().lowest_exponent() < lowest_exponent)
       return "entries on tetrahedra are for kernels like 1/r or less at 0" + remedy;
+    for (const PotentialTerms &part : terms(kernel))
+      for (const auto &[coefficient, exponent] : part.terms)
+        if (exponent > highest_exponent)
+          return "entries on tetrahedra are for powers up to r^" +
+                 std::to_string(highest_exponent) + ", not r^" + std::to_string(exponent) +
+                 "; give fewer coefficients";
     return "";
   }
 

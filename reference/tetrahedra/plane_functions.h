@@ -51,14 +51,9 @@ namespace plumbline::reference
     /// g, regular.
     Real density(const Real &r) const;
 
-    /// Whether PieceForm has room for its coefficients.
-    bool has_forms() const
-    {
-      return std::max(compact_.size(), regular_.size()) <= PieceForm::most_coefficients;
-    }
-    /// H, compact, in double. @pre has_forms()
+    /// H, compact, in double.
     PieceForm compact_form() const;
-    /// H, regular, in double, of a function of this part alone. @pre has_forms()
+    /// H, regular, in double, of a function of this part alone.
     PieceForm regular_form(bool is_inside) const;
 
   private:

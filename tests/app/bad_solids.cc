@@ -289,7 +289,7 @@ TEST_F(BadSolids, surface_corrections_are_for_free_bodies_of_bonds)
       "it corrects bonds near the free surfaces of bodies; write Domain/boundary = free");
   expect_refused(corrected + " --set Domain/mesh=squares --set "
                              "'Domain/holes=0.75, -0.0625 : 0.875, 0.0625'",
-                 "fictitious nodes (methods +mirror) are those of one box");
+                 "fictitious nodes (methods +mirror) need a body of one box");
   expect_refused(corrected + " --set Study/m=12", "the horizon of 12 h reaches across the box");
   expect_refused(corrected + "s", "'FA+mirrors' is not known");
 }

@@ -158,7 +158,7 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   expect_refused(set("Crack/notch=0.51"), "Crack/notch = 0.51 is 20.4 mesh sizes");
   expect_refused(set("Crack/notch=3"), "cuts through the strip, which is 3 long");
   expect_refused(set("Crack/load=0"), "Crack/load = 0 must be positive");
-  expect_refused(set("Crack/load=50"), "bonds soften all over the strip");
+  expect_refused(set("Crack/load=50"), "bonds soften everywhere");
   expect_refused(set("Crack/samples=2"), "Crack/samples = '2' is not allowed");
   expect_refused(set("Time/final time=-1"), "Time/final time = -1");
   expect_refused(set("Time/final time=0"), "needs Time/final time > 0");

@@ -92,7 +92,8 @@ TEST(DispersionCommand, takes_rules_that_are_infeasible_as_findings)
       run("dispersion " + scene("double_well_decaying") +
           " --methods IPA-AC-R4 --set Study/m=2 --levels 1 -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_found(outcome.out, "no waves, because");
+  expect_found(outcome.out, "Levels without results");
+  expect_found(outcome.out, "are infeasible for m = 2");
 }
 
 TEST(DispersionCommand, refuses_what_has_no_waves)

@@ -371,6 +371,8 @@ TEST(LatticeMethods, vertex_nodes_have_the_boundary_among_the_data)
   {
     if (method->name() == "PDDO") // not positive definite here
       continue;
+    if (method->name().find('+') != std::string::npos) // of bodies with free surfaces alone
+      continue;
     std::map<std::string, std::vector<double>> errors;
     for (const std::string nodes : {"centres", "vertices"})
       for (const double size : {.05, .025})

@@ -265,33 +265,15 @@ TEST(ManyPairs, are_those_with_all_digits_up_to_their_bounds)
     }
 }
 
-// More coefficients than the sums in registers have room for: pairs are integrated one by one.
-TEST(ManyPairs, of_long_polynomials_are_those_of_single_pairs)
+TEST(FacePotentials, refuse_powers_that_antiderivatives_have_no_room_for)
 {
-  const std::vector<PairFace> faces = some_faces(6);
-  std::vector<NumberedFace> all;
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
-  std::vector<const NumberedFace *> others;
-  for (const NumberedFace &face : all)
-    others.push_back(&face);
-  physics::RadialProfile::Powers powers = {{1, 0}};
-  for (int k = 1; k < 80; ++k)
-    powers.push_back({.01, k});
-  const auto kernel = physics::Kernel<3>::with_diffusion(powers, 1, 1);
-  const ExactPairs exact(kernel, Kind::biharmonic, 1e-14);
-  ExactPairs::Shared shared, alone;
-  shared.start({others.front()}, others);
-  alone.start({others.front()}, others);
-  std::vector<ExactPairs::Integral> integrals;
-  exact(all.front(), others, shared, integrals);
-  double largest = 0;
-  for (std::size_t k = 0; k < faces.size(); ++k)
+  const auto refusal = [](int highest)
   {
-    EXPECT_EQ(integrals[k].value, exact(all.front(), all[k], alone).value) << k;
-    largest = std::max(largest, std::abs(integrals[k].value));
-  }
-  EXPECT_GT(largest, 0);
+    const physics::RadialProfile::Powers powers = {{1, 0}, {.01, highest}};
+    return FacePotential::refuse(physics::Kernel<3>::with_diffusion(powers, 1, 1));
+  };
+  EXPECT_EQ(refusal(50), "");
+  EXPECT_NE(refusal(51).find("powers up to r^50, not r^51; give fewer"), std::string::npos);
 }
 
 TEST(PlaneIntegrals, see_no_foot_that_is_on_the_line_of_a_side_but_beyond_it)

@@ -232,11 +232,11 @@ TEST(Crack, branches_only_where_two_tips_go_on_side_by_side)
   { return described([](double t) { return 1 + .05 * t; }, n_branches, end).outcome; };
   EXPECT_EQ(outcome([](double t) { return t == 100 ? 2 : 1; }), CrackOutcome::runs); // the last one
   EXPECT_EQ(outcome([](double t) { return t == 50 ? 3 : 1; }), CrackOutcome::runs);
-  // two horizons are 16 samples, in one piece
-  EXPECT_EQ(outcome([](double t) { return t >= 50 && t < 60 ? 2 : 1; }), CrackOutcome::runs);
+  // four horizons are 32 samples, in one piece
+  EXPECT_EQ(outcome([](double t) { return t >= 50 && t < 75 ? 2 : 1; }), CrackOutcome::runs);
   EXPECT_EQ(outcome([](double t) { return static_cast<int>(t) % 10 > 0 ? 2 : 1; }),
             CrackOutcome::runs);
-  const Function branched = [](double t) { return t >= 50 && t < 80 ? 2 : 1; };
+  const Function branched = [](double t) { return t >= 30 && t < 75 ? 2 : 1; };
   for (const int end : {70, 90, 100}) // whenever one looks
     EXPECT_EQ(outcome(branched, end), CrackOutcome::branches) << end;
   // at the end of the strip alone, from x = 9.6 on
