@@ -14,6 +14,7 @@
 #include "report/counted.h"
 #include "report/formats.h"
 #include "report/pdf.h"
+#include "study/reference_estimate.h"
 
 #include <algorithm>
 #include <fstream>
@@ -177,7 +178,7 @@ namespace plumbline::driver
     const method::Methods methods = check_methods(analysis, scene, all_methods(), options.n_levels);
     progress.reset();
     watch_interrupts();
-    const io::OutputFolder output(folder, {task.command, scene.name, scene.text}, task.ranks);
+    const io::OutputFolder output(folder, {task.command, scene.name, scene.text, note}, task.ranks);
     const fs::path journal_file = folder / (task.file + ".jsonl");
     base::on_first_rank(task.ranks, [&] { require_writable(folder / (task.file + ".json")); });
     io::RecordJournal journal(journal_file, subject_of(analysis, options, scene));
@@ -189,7 +190,7 @@ namespace plumbline::driver
     control.should_stop = [&] { return task.ranks.any(is_interrupted()); };
     control.earlier = earlier_results(task, journal);
     if (!task.note.empty() && task.ranks.rank() == 0)
-      std::cerr << "note: " << task.note << '\n';
+      note(task.note);
     if (!control.earlier.records.empty() && is_talking)
       std::cerr << "continuing: " << report::counted(control.earlier.records.size(), "record")
                 << " in '" << journal_file.string() << "' already\n";
@@ -242,6 +243,6 @@ namespace plumbline::driver
       task.has_checkpoint = row.has_checkpoint;
       return task;
     };
-    return analyse(make_task, options, without_reference(read_scene(options)));
+    return analyse(make_task, options, study::without_reference(read_scene(options)));
   }
 } // namespace plumbline::driver

@@ -66,7 +66,7 @@ namespace plumbline::driver
         study::certified_ways(scene, all_methods(), options.reference_level);
     study::check_data(scene);
     const fs::path folder = output_folder(options, scene);
-    const io::OutputFolder output(folder, {"certify", scene.name, scene.text}, ranks);
+    const io::OutputFolder output(folder, {"certify", scene.name, scene.text, note}, ranks);
     std::optional<base::ProgressLine> progress(!is_quiet);
     progress->show("certify", 0);
     Certificate certificate =

@@ -108,7 +108,7 @@ namespace plumbline::driver
       const bool has_files = !scene.domain.is_in_space() && !is_silent;
       if (!has_files && options.output.empty())
         return;
-      const io::OutputFolder output(folder, {"check", scene.name, scene.text},
+      const io::OutputFolder output(folder, {"check", scene.name, scene.text, note},
                                     base::Communicator::alone());
       write();
       if (options.pdf)

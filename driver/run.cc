@@ -247,7 +247,7 @@ namespace plumbline::driver
     if (is_pdf)
       report::require_pdf();
     const study::StudyResults results = io::results_in(folder);
-    const io::OutputFolder output(folder, {"run", results.scene_name, results.scene_text},
+    const io::OutputFolder output(folder, {"run", results.scene_name, results.scene_text, note},
                                   base::Communicator::alone());
     report::write_report(results, folder);
     if (is_pdf)

@@ -226,7 +226,7 @@ namespace plumbline::driver
 
     study::sample_taker(scene, all_methods()).check(scene, folder, n_processes(options, plan));
     const base::Communicator communicator = base::Communicator::all();
-    const io::OutputFolder output(folder, {"sample", scene.name, scene.text}, communicator);
+    const io::OutputFolder output(folder, {"sample", scene.name, scene.text, note}, communicator);
     base::on_first_rank(communicator,
                         [&]
                         {

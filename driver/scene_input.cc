@@ -3,6 +3,8 @@
 #include "driver/methods.h"
 #include "study/method_names.h"
 
+#include <iostream>
+
 namespace plumbline::driver
 {
   scene::Scene read_scene(const SceneOptions &options)
@@ -13,11 +15,9 @@ namespace plumbline::driver
     return study::with_names_of(scene::read_scene(options.scene_file, overrides), all_methods());
   }
 
-  scene::Scene without_reference(scene::Scene scene)
+  void note(const std::string &text)
   {
-    scene.reference.method.reset();
-    scene.reference.estimate = scene::Estimate::none;
-    return scene;
+    std::cerr << "note: " << text << '\n';
   }
 
   std::filesystem::path output_folder(const SceneOptions &options, const scene::Scene &scene)

@@ -22,8 +22,8 @@ namespace plumbline::driver
   /// The scene with its overrides, and names of methods as the methods write them.
   scene::Scene read_scene(const SceneOptions &options);
 
-  /// The scene without its reference and without error estimates.
-  scene::Scene without_reference(scene::Scene scene);
+  /// Prints a note on standard error.
+  void note(const std::string &text);
 
   /// The folder for results.
   std::filesystem::path output_folder(const SceneOptions &options, const scene::Scene &scene);

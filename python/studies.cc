@@ -5,6 +5,7 @@
 #include "reading.h"
 #include "rule.h"
 #include "study/method_names.h"
+#include "study/reference_estimate.h"
 #include "study/statics.h"
 #include "study/transient.h"
 
@@ -83,7 +84,7 @@ namespace plumbline::python
         if (row == nullptr && name != run_name)
           throw InputError("no analysis is called '" + name + "'");
         if (row != nullptr)
-          scene = driver::without_reference(scene);
+          scene = study::without_reference(scene);
         const study::Analysis analysis =
             row == nullptr ? static_or_in_time(scene, available)
                            : row->make({{folder, should_stop}, {angles, directions}});

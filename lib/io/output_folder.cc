@@ -13,7 +13,6 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <iostream>
 #include <sstream>
 
 namespace plumbline::io
@@ -55,7 +54,7 @@ namespace plumbline::io
   } // namespace
 
   OutputFolder::OutputFolder(fs::path folder, const Owner &owner, const base::Communicator &ranks)
-      : folder_(std::move(folder))
+      : folder_(std::move(folder)), tell_(owner.tell)
   {
     base::on_first_rank(ranks, [&] { open(owner); });
   }
@@ -128,9 +127,9 @@ namespace plumbline::io
     for (const Entry &entry : stale_)
       if (entry.scene_name != own_.scene_name)
         others += (others.empty() ? "" : ", ") + entry.command + " of " + entry.scene_name;
-    if (!others.empty())
-      std::cerr << "note: '" << folder_.string() << "' held results of another scene (" << others
-                << "), which are removed\n";
+    if (!others.empty() && tell_)
+      tell_("'" + folder_.string() + "' held results of another scene (" + others +
+            "), which are removed");
     stale_.clear();
     write_record(true);
   }

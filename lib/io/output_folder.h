@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -25,6 +26,8 @@ namespace plumbline::io
       std::string command;    ///< e.g. "run"
       std::string scene_name; ///< the scene's
       std::string scene_text; ///< as scene::Scene::text
+      /// Receives a sentence where results of another scene are removed.
+      std::function<void(const std::string &)> tell = {};
     };
 
     /// Make the folder and try it, so that no work is lost at the end. @note Collective.
@@ -59,6 +62,7 @@ namespace plumbline::io
     static bool is_of(const std::vector<Entry> &entries, const std::string &file);
 
     std::filesystem::path folder_;
+    std::function<void(const std::string &)> tell_;
     std::vector<std::filesystem::path> made_; ///< folders, the outermost first
     Entry own_;                               ///< of this command
     std::vector<Entry> entries_;              ///< of other commands and the same scene

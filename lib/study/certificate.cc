@@ -477,10 +477,7 @@ namespace plumbline::study
       throw InputError("--reference-level = " + std::to_string(level) + ", but Study/h has " +
                        std::to_string(n_levels) + " mesh sizes");
     check_memory(scene, {ways.galerkin}, available, level);
-    scene::Scene of_rule = scene; // that has no reference at its finer levels
-    of_rule.reference.method.reset();
-    of_rule.reference.estimate = scene::Estimate::none;
-    check_memory(of_rule, ways.rules, available, 0);
+    check_memory(without_reference(scene), ways.rules, available, 0);
     ways.level = level - 1;
     return ways;
   }

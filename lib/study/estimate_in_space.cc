@@ -119,13 +119,7 @@ namespace plumbline::study
     const double q = contraction(estimate.coarse_change, estimate.h_change,
                                  std::pow(.5, method.order())),
                  size = averages_l2(problem, ranks, solution.averages);
-    estimate.rate = -std::log2(q);
-    estimate.estimate = error_of_change(estimate.h_change, q) +
-                        solver_error(problem.settings.solver.tolerance, size);
-    estimate.p_change = estimate.field_p_change = not_fitted;
-    estimate.field_h_change = estimate.field_coarse_change = not_fitted;
-    estimate.field_rate = estimate.field_estimate = not_fitted;
-    estimate.certified_digits = certified_digits(estimate.estimate, size);
+    conclude_from_changes(estimate, q, size, problem.settings.solver.tolerance);
     estimate.at_points = estimate_at(points, problem, solution, fine, q);
     return estimate;
   }

@@ -57,6 +57,38 @@ namespace plumbline::study
     return safety * change / (1 - contraction);
   }
 
+  void conclude_from_changes(ErrorEstimate &estimate, double contraction, double size,
+                             double tolerance)
+  {
+    estimate.rate = -std::log2(contraction);
+    estimate.estimate =
+        error_of_change(estimate.h_change, contraction) + solver_error(tolerance, size);
+    estimate.p_change = estimate.field_p_change = not_fitted;
+    estimate.field_h_change = estimate.field_coarse_change = not_fitted;
+    estimate.field_rate = estimate.field_estimate = not_fitted;
+    estimate.certified_digits = certified_digits(estimate.estimate, size);
+  }
+
+  void check_tolerance(const scene::ReferenceSection &wanted, const ErrorEstimate &estimate,
+                       double size, const std::string &remedy)
+  {
+    if (wanted.tolerance <= 0 || estimate.estimate <= wanted.tolerance * size)
+      return;
+    std::ostringstream message;
+    message << "the reference " << *wanted.method << " at h = " << estimate.h
+            << " has an estimated error of " << estimate.estimate / size
+            << " relative to the solution, more than Reference/tolerance = " << wanted.tolerance
+            << "; take " << remedy;
+    throw NumericalError(message.str());
+  }
+
+  scene::Scene without_reference(scene::Scene scene)
+  {
+    scene.reference.method.reset();
+    scene.reference.estimate = scene::Estimate::none;
+    return scene;
+  }
+
   bool is_estimated(const scene::Scene &scene, const Method &method)
   {
     return method.family() == method::MethodFamily::reference &&
@@ -319,18 +351,10 @@ namespace plumbline::study
     result.at_points = values_at(points, problem, solution, result.estimate.at_points);
     result.estimate.n_geometry_checks = solution.diagnostics.n_geometry_checks;
     result.estimate.geometry_difference = solution.diagnostics.geometry_difference;
-    const double size = averages_l2(problem, solution.averages,
-                                    std::vector<double>(solution.averages.size())),
-                 estimate = result.estimate.estimate;
-    if (wanted.tolerance > 0 && !(estimate <= wanted.tolerance * size))
-    {
-      std::ostringstream message;
-      message << "the reference " << method.name() << " at h = " << problem.h
-              << " has an estimated error of " << estimate / size
-              << " relative to the solution, more than Reference/tolerance = " << wanted.tolerance
-              << "; take a higher degree (Reference/method), a smaller h, or a larger tolerance";
-      throw NumericalError(message.str());
-    }
+    const double size =
+        averages_l2(problem, solution.averages, std::vector<double>(solution.averages.size()));
+    check_tolerance(wanted, result.estimate, size,
+                    "a higher degree (Reference/method), a smaller h, or a larger tolerance");
     return result;
   }
 } // namespace plumbline::study

@@ -14,6 +14,9 @@ namespace plumbline::study
   /// Decimal digits of a solution of a given size that an estimate of its error leaves certain.
   unsigned int certified_digits(double estimate, double size);
 
+  /// The scene without its reference and without error estimates.
+  scene::Scene without_reference(scene::Scene scene);
+
   /// Whether a scene wants the error of a method's solutions, besides the reference, estimated.
   bool is_estimated(const scene::Scene &scene, const Method &method);
 
@@ -33,6 +36,19 @@ namespace plumbline::study
 
   /// What the linear solver leaves of a solution of a given size.
   double solver_error(double tolerance, double size);
+
+  /// What follows from the changes of averages alone, with nothing of the field.
+  /// @param contraction  see there
+  /// @param size         of the solution
+  /// @param tolerance    of the linear solver
+  void conclude_from_changes(ErrorEstimate &estimate, double contraction, double size,
+                             double tolerance);
+
+  /// @param size    of the solution
+  /// @param remedy  what to change
+  /// @throws NumericalError  a reference's estimate is larger than Reference/tolerance
+  void check_tolerance(const scene::ReferenceSection &wanted, const ErrorEstimate &estimate,
+                       double size, const std::string &remedy);
 
   /// How far a Galerkin solution may be wrong, its averages and its field, in L2: a bound in
   /// practice. Changes d to h/2 and d' from 2 h to h give Richardson's e = d / (1 - q) with q the

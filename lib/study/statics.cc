@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "scene/on_line.h"
+#include "study/compared_case.h"
 #include "study/comparison.h"
 #include "study/conclusions.h"
 #include "study/contradiction.h"
@@ -257,15 +258,9 @@ namespace plumbline::study
         if (options_.on_finest)
           options_.on_finest([&](const std::string &stem) { solution.write_vtu(stem + ".vtu"); },
                              run);
-        if (run.key.problem != cases_.back().name || !is_of_first_series() ||
-            (!problem.solution && target.empty()))
-          return;
-        ErrorMap map = error_map(scene_.study.decisive_error.norm, problem, solution, target);
-        map.method = run.key.method;
-        map.problem = run.key.problem;
-        map.series = run.key.series;
-        map.size = size_of(run);
-        results_.maps.push_back(map);
+        if (is_drawn(place_, run) && (problem.solution || !target.empty()))
+          add_map(place_, error_map(scene_.study.decisive_error.norm, problem, solution, target),
+                  run);
       }
 
       const Place &place_;

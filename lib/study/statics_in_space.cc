@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "physics/gauss.h"
+#include "study/compared_case.h"
 #include "study/comparison.h"
 #include "study/energy.h"
 #include "study/estimate_in_space.h"
@@ -19,8 +20,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 namespace plumbline::study
@@ -156,14 +155,7 @@ namespace plumbline::study
       return map;
     }
 
-    /// A case of a level, and the averages that its solutions are held against. (Those of a rank
-    /// without cells are empty.)
-    struct CaseInSpace
-    {
-      std::string name;
-      ProblemInSpace problem;
-      std::optional<std::vector<double>> exact = {}, local = {}, reference = {};
-    };
+    using CaseInSpace = ComparedCase<ProblemInSpace>;
     using CasesInSpace = std::vector<CaseInSpace>;
 
     /// All cases of a level in space.
@@ -175,7 +167,7 @@ namespace plumbline::study
             ranks_(scene_.domain.mesh.is_lattice() && scene_.domain.cubes(place.level().h).is_box()
                        ? options.ranks
                        : Communicator::alone()),
-            cases_(place.shared<CasesInSpace>("cases in space", [this] { return open_cases(); }))
+            cases_(place.shared<CasesInSpace>("cases in space", [this] { return open(); }))
       {
       }
 
@@ -202,24 +194,19 @@ namespace plumbline::study
       }
 
     private:
-      CasesInSpace open_cases() const
+      CasesInSpace open() const
       {
-        CasesInSpace cases;
-        const auto names = scene_.problem.case_names();
-        for (unsigned int c = 0; c < names.size(); ++c)
-        {
-          const scene::CellsInSpace cells = cases.empty() ? nullptr : cases.front().problem.cells;
-          CaseInSpace one{names[c],
-                          make_problem_in_space(scene_, c, place_.level(), 0, nullptr, cells)};
-          if (one.problem.solution)
-            one.exact = cell_averages(*one.problem.solution, one.problem, ranks_);
-          if (one.problem.local_solution)
-            one.local = cell_averages(*one.problem.local_solution, one.problem, ranks_);
-          if (scene_.reference.method)
-            one.reference = solve_reference(one);
-          cases.push_back(std::move(one));
-        }
-        return cases;
+        return open_cases<ProblemInSpace>(
+            scene_,
+            [&](unsigned int c, const CasesInSpace &before)
+            {
+              const scene::CellsInSpace cells =
+                  before.empty() ? nullptr : before.front().problem.cells;
+              return make_problem_in_space(scene_, c, place_.level(), 0, nullptr, cells);
+            },
+            [&](const auto &field, const ProblemInSpace &problem)
+            { return cell_averages(field, problem, ranks_); },
+            [&](const CaseInSpace &one) { return solve_reference(one); });
       }
 
       std::vector<double> solve_reference(const CaseInSpace &one) const
@@ -244,16 +231,7 @@ namespace plumbline::study
         tell(estimate.at_points);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem, ranks_, solution.averages);
-        if (const double tolerance = scene_.reference.tolerance;
-            tolerance > 0 && !(estimate.estimate <= tolerance * size))
-        {
-          std::ostringstream message;
-          message << "the reference " << method->name() << " at h = " << one.problem.h()
-                  << " has an estimated error of " << estimate.estimate / size
-                  << " relative to the solution, more than Reference/tolerance = " << tolerance
-                  << "; take a smaller h, or a larger tolerance";
-          throw NumericalError(message.str());
-        }
+        check_tolerance(scene_.reference, estimate, size, "a smaller h, or a larger tolerance");
         return solution.averages;
       }
 
@@ -266,12 +244,12 @@ namespace plumbline::study
         run.set("area", cell_volume(problem) * static_cast<double>(problem.lattice.size()),
                 "length^3");
         set_diagnostics(run, solution.diagnostics);
-        for (const auto &[target, averages] :
-             {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
-              std::pair(Target::reference, &one.reference)})
-          if (*averages)
-            set_errors(run, Quantity::averages, target, problem.n_components, solution.averages,
-                       **averages);
+        one.for_each_target(
+            [&](Target target, const std::vector<double> &averages)
+            {
+              set_errors(run, Quantity::averages, target, problem.n_components, solution.averages,
+                         averages);
+            });
         if (problem.solution)
           set_errors(run, Quantity::nodal, Target::exact, problem.n_components, solution.nodal,
                      nodal_values(*problem.solution, problem.n_components, solution),
@@ -323,16 +301,8 @@ namespace plumbline::study
                              { method::write_vti(one.problem, all, stem + ".vti"); },
                              run);
         }
-        const auto &target = one.exact ? one.exact : one.reference;
-        if (!target || run.key.problem != cases_.back().name ||
-            place_.series().name != scene_.study.series.front().name)
-          return;
-        ErrorMap map = map_of_layer(one.problem, ranks_, solution.averages, *target);
-        map.method = run.key.method;
-        map.problem = run.key.problem;
-        map.series = run.key.series;
-        map.size = size_of(run);
-        place_.results().maps.push_back(map);
+        if (one.drawn() && is_drawn(place_, run))
+          add_map(place_, map_of_layer(one.problem, ranks_, solution.averages, *one.drawn()), run);
       }
 
       std::vector<double> nodal_values(const problem::Field<3> &field, unsigned int n_components,

@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "physics/gauss.h"
 #include "scene/on_line.h"
+#include "study/compared_case.h"
 #include "study/comparison.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
@@ -15,8 +16,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 namespace plumbline::study
@@ -111,13 +110,7 @@ namespace plumbline::study
       const double q = contraction(estimate.coarse_change, estimate.h_change,
                                    std::pow(.5, method.order())),
                    size = averages_l2(problem.h(), solution.averages);
-      estimate.rate = -std::log2(q);
-      estimate.estimate = error_of_change(estimate.h_change, q) +
-                          solver_error(problem.settings.solver.tolerance, size);
-      estimate.p_change = estimate.field_p_change = not_fitted;
-      estimate.field_h_change = estimate.field_coarse_change = not_fitted;
-      estimate.field_rate = estimate.field_estimate = not_fitted;
-      estimate.certified_digits = certified_digits(estimate.estimate, size);
+      conclude_from_changes(estimate, q, size, problem.settings.solver.tolerance);
       return estimate;
     }
 
@@ -173,13 +166,7 @@ namespace plumbline::study
       return map;
     }
 
-    /// A case of a level, and the averages that its solutions are held against.
-    struct CaseOnLine
-    {
-      std::string name;
-      ProblemOnLine problem;
-      std::optional<std::vector<double>> exact = {}, local = {}, reference = {};
-    };
+    using CaseOnLine = ComparedCase<ProblemOnLine>;
     using CasesOnLine = std::vector<CaseOnLine>;
 
     /// All cases of a level on intervals.
@@ -188,7 +175,7 @@ namespace plumbline::study
     public:
       LevelOnLine(const Place &place, const Methods &available, const StaticsOptions &options)
           : place_(place), scene_(place.scene()), available_(available), options_(options),
-            cases_(place.shared<CasesOnLine>("cases on a line", [this] { return open_cases(); }))
+            cases_(place.shared<CasesOnLine>("cases on a line", [this] { return open(); }))
       {
       }
 
@@ -206,22 +193,13 @@ namespace plumbline::study
       }
 
     private:
-      CasesOnLine open_cases() const
+      CasesOnLine open() const
       {
-        CasesOnLine cases;
-        const auto names = scene_.problem.case_names();
-        for (unsigned int c = 0; c < names.size(); ++c)
-        {
-          CaseOnLine one{names[c], make_problem_on_line(scene_, c, place_.level())};
-          if (one.problem.solution)
-            one.exact = cell_averages(*one.problem.solution, one.problem);
-          if (one.problem.local_solution)
-            one.local = cell_averages(*one.problem.local_solution, one.problem);
-          if (scene_.reference.method)
-            one.reference = solve_reference(one);
-          cases.push_back(std::move(one));
-        }
-        return cases;
+        return open_cases<ProblemOnLine>(
+            scene_,
+            [&](unsigned int c, const CasesOnLine &)
+            { return make_problem_on_line(scene_, c, place_.level()); },
+            cell_averages, [&](const CaseOnLine &one) { return solve_reference(one); });
       }
 
       std::vector<double> solve_reference(const CaseOnLine &one) const
@@ -234,16 +212,7 @@ namespace plumbline::study
             placed(estimate_on_line(*method, one.problem, solution), place_, one.name);
         place_.results().references.push_back(estimate);
         const double size = averages_l2(one.problem.h(), solution.averages);
-        if (const double tolerance = scene_.reference.tolerance;
-            tolerance > 0 && !(estimate.estimate <= tolerance * size))
-        {
-          std::ostringstream message;
-          message << "the reference " << method->name() << " at h = " << one.problem.h()
-                  << " has an estimated error of " << estimate.estimate / size
-                  << " relative to the solution, more than Reference/tolerance = " << tolerance
-                  << "; take a smaller h, or a larger tolerance";
-          throw NumericalError(message.str());
-        }
+        check_tolerance(scene_.reference, estimate, size, "a smaller h, or a larger tolerance");
         return solution.averages;
       }
 
@@ -256,11 +225,9 @@ namespace plumbline::study
         run.set("round-off", round_off_error(problem, solution.averages, solution.diagnostics));
         run.set("area", problem.h() * static_cast<double>(problem.lattice.size()), "length");
         set_diagnostics(run, solution.diagnostics);
-        for (const auto &[target, averages] :
-             {std::pair(Target::exact, &one.exact), std::pair(Target::local, &one.local),
-              std::pair(Target::reference, &one.reference)})
-          if (*averages)
-            set_errors(run, Quantity::averages, target, solution.averages, **averages);
+        one.for_each_target(
+            [&](Target target, const std::vector<double> &averages)
+            { set_errors(run, Quantity::averages, target, solution.averages, averages); });
         if (problem.solution)
           set_errors(run, Quantity::nodal, Target::exact, solution.nodal,
                      values_at(*problem.solution, solution.nodes));
@@ -282,16 +249,8 @@ namespace plumbline::study
         if (options_.on_finest)
           options_.on_finest([&](const std::string &stem) { write_csv(solution, stem + ".csv"); },
                              run);
-        const auto &target = one.exact ? one.exact : one.reference;
-        if (!target || run.key.problem != cases_.back().name ||
-            place_.series().name != scene_.study.series.front().name)
-          return;
-        ErrorMap map = curve_of(one.problem, solution.averages, *target);
-        map.method = run.key.method;
-        map.problem = run.key.problem;
-        map.series = run.key.series;
-        map.size = size_of(run);
-        place_.results().maps.push_back(map);
+        if (one.drawn() && is_drawn(place_, run))
+          add_map(place_, curve_of(one.problem, solution.averages, *one.drawn()), run);
       }
 
       /// Of the scene's norms; each value stands for an equal part of Ω.

@@ -285,18 +285,4 @@ namespace plumbline::uq
     result.found = std::min(result.found, result.bound); // but for rounding
     return result;
   }
-
-  double chebyshev_lebesgue_bound(std::size_t n_variables, unsigned int level)
-  {
-    double sum = 0;
-    for_each_smolyak_term(n_variables, level,
-                          [&](double factor, const std::vector<unsigned int> &excess)
-                          {
-                            double product = std::abs(factor);
-                            for (const unsigned int e : excess)
-                              product *= 2 / M_PI * std::log(e + 2.) + 1; // ϖ = e + 1
-                            sum += product;
-                          });
-    return sum;
-  }
 } // namespace plumbline::uq

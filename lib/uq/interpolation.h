@@ -67,8 +67,4 @@ namespace plumbline::uq
     std::map<Rule, Line> lines_;
     std::vector<Product> products_;
   };
-
-  /// The bound (3.16) of Fan et al. on Λ for Smolyak's rule of Chebyshev points, of which variable
-  /// j has ϖ_j = 1, 2, ... at its levels.
-  double chebyshev_lebesgue_bound(std::size_t n_variables, unsigned int level);
 } // namespace plumbline::uq

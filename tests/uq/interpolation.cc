@@ -1,6 +1,7 @@
 // Interpolants of rules: what they reproduce, and their Lebesgue constants against brute force.
 
 #include "uq/interpolation.h"
+#include "uq/smolyak_terms.h"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,22 @@ namespace
     double sum = 0;
     for (std::size_t k = 0; k < J.size(); ++k)
       sum += J[k] * v(of.points()[k]);
+    return sum;
+  }
+
+  /// The bound (3.16) of Fan et al. on Λ for Smolyak's rule of Chebyshev points, of which variable
+  /// j has ϖ_j = 1, 2, ... at its levels.
+  double chebyshev_lebesgue_bound(std::size_t n_variables, unsigned int level)
+  {
+    double sum = 0;
+    for_each_smolyak_term(n_variables, level,
+                          [&](double factor, const std::vector<unsigned int> &excess)
+                          {
+                            double product = std::abs(factor);
+                            for (const unsigned int e : excess)
+                              product *= 2 / M_PI * std::log(e + 2.) + 1; // ϖ = e + 1
+                            sum += product;
+                          });
     return sum;
   }
 
