@@ -78,7 +78,7 @@ namespace plumbline::app
       return fail(
           "standard output cannot be written" +
               (reason == 0 ? std::string() : std::string(" (") + std::strerror(reason) + ")") +
-              ", what was printed is not whole; free some space, or send it elsewhere",
+              "; the output is incomplete. Free some disk space or redirect it",
           3);
     }
 

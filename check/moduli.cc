@@ -51,7 +51,7 @@ namespace plumbline::check
           throw InputError("--rules: '" + name + "' is not known; choose all or some of " + known);
         if (found->is_scalar)
           throw InputError("--rules: '" + found->name +
-                           "' has weights for scalar kernels alone, which have no elastic "
+                           "' supports scalar kernels only, which have no elastic "
                            "constants; take GFD or IPA-AC-R2");
         chosen.push_back(*found);
       }

@@ -25,7 +25,7 @@ namespace plumbline::check
   physics::ElasticState elastic_state(const std::string &word);
 
   /// The elastic constants of each rule on a square or cubic lattice, one record for each ratio.
-  /// @throws InputError  unknown names, numbers that cannot be
+  /// @throws InputError  unknown names, numbers outside their range
   study::StudyResults moduli_of_rules(const ModuliOptions &options);
 
   report::View moduli_view(const study::StudyResults &results);

@@ -16,7 +16,7 @@ namespace plumbline::check
   /// The weights of its family as CSV: the place of the neighbour relative to the node (x, y, z)
   /// [length], weight [length^dim], where the kernel is taken (qx, qy, qz) [length] and the area or
   /// volume that the weight stands for; 17 digits.
-  /// @throws InputError      unknown names, numbers that cannot be
+  /// @throws InputError      unknown names, numbers outside their range
   /// @throws NumericalError  the rule has no weights at this m
   std::string weights_csv(const RuleOnLattice &options);
 } // namespace plumbline::check

@@ -47,7 +47,7 @@ namespace plumbline::driver
   /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
   /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
   /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
-  /// and checkpoint.h5. On several ranks the first one of the task talks and writes.
+  /// and checkpoint.h5. On several ranks only the task's first rank prints and writes.
   /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
   ///         where that is no finding, nor expected by the scene; 130 if it was interrupted
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written

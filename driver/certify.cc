@@ -31,8 +31,7 @@ namespace plumbline::driver
       const study::CertifiedPlaces places(certificate);
       for (std::size_t i = 0; i < certificate.points.size(); ++i)
         if (const auto &x = certificate.points[i].x; places.find(x) != i)
-          throw InputError("Output/points: " + io::place_text(x) +
-                           " is listed twice; leave one out");
+          throw InputError("Output/points: " + io::place_text(x) + " is listed twice; remove one");
       if (!(certificate.size > 0))
         throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
                              "to its size; give a load, or other points");

@@ -50,8 +50,8 @@ namespace plumbline::driver
                          "Domain/boundary = free; write constrained, and give --boundary free");
     }
 
-    /// The weights of a file are what they are: a scene need not name rules or pose a problem. All
-    /// rules count as meant then, and a smooth solution is taken. Scenes that are pipes cannot be
+    /// The weights come from a file: a scene need not name rules or pose a problem. By default all
+    /// rules are considered, and a smooth solution. Scenes that are pipes cannot be
     /// read twice and are left as they are.
     CheckOptions with_defaults(CheckOptions options)
     {

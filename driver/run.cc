@@ -43,8 +43,8 @@ namespace plumbline::driver
       scene::Scene scene = read_scene(options);
       if (scene.fracture.is_there())
         throw InputError("scene '" + scene.name +
-                         "': Fracture/toughness is for 'plumbline grow', which breaks bonds; write "
-                         "that, or clear it");
+                         "': Fracture/toughness is for 'plumbline grow', which breaks bonds; run "
+                         "that command, or clear the key");
       return scene;
     }
 
@@ -160,9 +160,9 @@ namespace plumbline::driver
       const double free = base::available_disk(folder.string());
       if (needed > .5 * free)
         throw InputError("Time/frames = " + std::to_string(scene.time.n_frames) +
-                         " would take some " + base::bytes_to_text(needed) + " in '" +
+                         " would take about " + base::bytes_to_text(needed) + " in '" +
                          folder.string() + "', where " + base::bytes_to_text(free) +
-                         " are free; write fewer, or give another folder with -o");
+                         " are free; give a smaller number, or another folder with -o");
     }
 
     void write_frame(const fs::path &folder, const std::string &name,

@@ -11,7 +11,7 @@ namespace plumbline::base
   std::vector<double> to_numbers(const std::string &option, const std::vector<std::string> &given);
 
   /// The same, three numbers for each vector.
-  /// @throws InputError  another number of numbers, too
+  /// @throws InputError  also if the count is not a multiple of three
   std::vector<std::array<double, 3>> to_vectors(const std::string &option,
                                                 const std::vector<std::string> &given);
 

@@ -2,6 +2,8 @@
 
 #include "algebra/banded_system.h"
 #include "base/error.h"
+#include "base/number_text.h"
+#include "base/text_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,5 +158,18 @@ namespace plumbline::method
                        " does not support methods with several unknowns per cell, whose matrix "
                        "is factored; write automatic or direct");
     return std::make_unique<algebra::BandedSystem>(stencil_, n, is_free_);
+  }
+
+  void write_csv(const FieldOnLine &field, const std::string &file)
+  {
+    constexpr int n_digits = 17;
+    std::vector<std::pair<double, double>> rows;
+    for (std::size_t i = 0; i < field.nodes.size(); ++i)
+      rows.emplace_back(field.nodes[i], field.nodal[i]);
+    std::sort(rows.begin(), rows.end());
+    std::string text = "x,u\n";
+    for (const auto &[x, u] : rows)
+      text += base::to_text(x, n_digits) + "," + base::to_text(u, n_digits) + "\n";
+    base::write_file(file, text);
   }
 } // namespace plumbline::method

@@ -23,6 +23,10 @@ namespace plumbline::method
     std::function<double(double x)> value; ///< u in the closed domain Ω
   };
 
+  /// Nodes and values there by x, in 17 digits.
+  /// @throws InputError  the file cannot be written
+  void write_csv(const FieldOnLine &field, const std::string &file);
+
   /// Values of all families at positions -1 ... n, solution and constraint together.
   struct LineValues
   {

@@ -9,7 +9,7 @@ namespace plumbline::physics
   {
     Lame least, largest;
 
-    /// Widened so that they hold these too.
+    /// Extends the bounds to include these constants.
     void add(const Lame &one);
   };
 

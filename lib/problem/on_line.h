@@ -17,7 +17,7 @@ namespace plumbline::problem
   };
 
   /// A boundary-value problem on a union of intervals at one level: a scalar kernel of a
-  /// homogeneous material, with u given all around. Fill in what it has, then complete() it.
+  /// homogeneous material, with u given all around. Set the known members; call complete().
   template <>
   struct Problem<1>
   {

@@ -170,6 +170,12 @@ namespace plumbline::report
       return verdict_words(trend).compare(0, 4, "rate") != 0;
     }
 
+    /// Other fields at least tend to a wrong limit.
+    bool is_wrong(const study::Trend &trend)
+    {
+      return trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::field_only;
+    }
+
     /// The legend says which methods stall, and in how many series if not in all of the picture.
     std::string legend(const study::StudyResults &results, const MethodName &method,
                        const std::vector<const Case *> &chosen)
@@ -178,9 +184,7 @@ namespace plumbline::report
       std::size_t n_stalls = 0;
       for (const Case *one : chosen)
         if (const study::Trend *trend = decisive_trend(results, method.name, *one))
-          if ((trend->outcome == study::Outcome::stalls ||
-               trend->outcome == study::Outcome::field_only) &&
-              says_not(*trend))
+          if (is_wrong(*trend) && says_not(*trend))
           {
             verdict = verdict_words(*trend);
             ++n_stalls;
@@ -193,16 +197,20 @@ namespace plumbline::report
       return method.name + " (" + verdict + part + ")";
     }
 
-    /// Errors of the chosen cases below this are round-off.
+    /// Errors of the chosen cases below this are round-off, of whichever method.
     double noise_of(const study::StudyResults &results, const std::vector<MethodName> &methods,
                     const std::vector<const Case *> &chosen)
     {
-      double size = 0;
+      double size = 0, least = std::numeric_limits<double>::infinity();
       for (const Case *one : chosen)
         for (const MethodName &method : methods)
           if (const study::Trend *trend = decisive_trend(results, method.name, *one))
+          {
             size = std::max(size, trend->size);
-      return round_off * (size > 0 ? size : 1);
+            if (trend->round_off > 0)
+              least = std::min(least, trend->round_off);
+          }
+      return std::isfinite(least) ? least : round_off * (size > 0 ? size : 1);
     }
 
     /// The cheapest points for their error, cheap to dear; below round-off none is better. Of one
@@ -257,7 +265,14 @@ namespace plumbline::report
         }
       plot.is_y_log = !is_iterations || most > wide * least;
       if (is_cost(chart.kind) && results.variable.empty()) // else points are of several problems
-        plot.frontier = frontier(points, plot.noise);
+      {
+        std::vector<Point> right;
+        for (const Point &point : points)
+          if (const study::Trend *trend = decisive_trend(results, point.method->name, *point.one);
+              trend == nullptr || !is_wrong(*trend))
+            right.push_back(point);
+        plot.frontier = frontier(right, plot.noise);
+      }
 
       for (const MethodName &method : methods)
       {

@@ -82,7 +82,7 @@ namespace plumbline::report
             " after its tip advanced by " + rounded(record["advance"]) + " [length], " + horizons;
       else
         text += record["speed"] > 0
-                    ? " at a speed of " + rounded(record["speed"]) + " [length/time], " +
+                    ? "; its mean speed is " + rounded(record["speed"]) + " [length/time], " +
                           rounded(record["speed / c_R"]) + " of the Rayleigh wave speed, at most " +
                           rounded(record["fastest / c_R"])
                     : ", at an unknown speed: too few tip positions were sampled for a fit";

@@ -31,12 +31,6 @@ namespace plumbline::report
       return text;
     }
 
-    /// Of a problem on intervals: values along x.
-    bool is_curve(const study::ErrorMap &map)
-    {
-      return map.n_y == 1 && map.lower[1] == map.upper[1];
-    }
-
     /// Of the finite ones.
     Range range_of(const std::vector<double> &values)
     {
@@ -90,7 +84,7 @@ namespace plumbline::report
     struct Curves
     {
       std::vector<double> study::ErrorMap::*values;
-      double least = 0; ///< of logarithmic axes; 0: the axis is linear
+      bool is_log = false; ///< the axis; zeros are not drawn then
     };
 
     /// A line for each interval, the first of them in the legend.
@@ -102,7 +96,7 @@ namespace plumbline::report
       bool is_going_on = false;
       for (unsigned int i = 0; i < map.n_x; ++i)
       {
-        if (!std::isfinite(values[i]))
+        if (!std::isfinite(values[i]) || (curves.is_log && values[i] <= 0))
         {
           is_going_on = false;
           continue;
@@ -116,9 +110,7 @@ namespace plumbline::report
           lines.back().symbol_interval = std::max(1u, map.n_x / n_symbols);
         }
         is_going_on = true;
-        lines.back().points.push_back(
-            {map.lower[0] + (i + .5) * block(map, 0),
-             curves.least > 0 ? std::max(values[i], curves.least) : values[i]});
+        lines.back().points.push_back({map.lower[0] + (i + .5) * block(map, 0), values[i]});
       }
     }
 
@@ -130,7 +122,7 @@ namespace plumbline::report
       plot.file = file;
       plot.x_label = "x [length]";
       plot.is_x_log = false;
-      plot.is_y_log = curves.least > 0;
+      plot.is_y_log = curves.is_log;
       for (const study::ErrorMap &map : maps)
         add_curve(map, curves, style_of(methods, map.method), plot.lines);
       return plot;
@@ -157,6 +149,11 @@ namespace plumbline::report
       return table;
     }
   } // namespace
+
+  bool is_curve(const study::ErrorMap &map)
+  {
+    return map.n_y == 1 && map.lower[1] == map.upper[1];
+  }
 
   ColourScale colour_scale(const std::vector<study::ErrorMap> &maps)
   {
@@ -194,8 +191,7 @@ namespace plumbline::report
     const std::size_t n = maps.size();
     if (is_curve(maps.front()))
     {
-      Plot plot =
-          curve_plot(maps, file, {&study::ErrorMap::values, colour_scale(maps).low}, methods);
+      Plot plot = curve_plot(maps, file, {&study::ErrorMap::values, true}, methods);
       plot.title = map_title(maps);
       plot.y_label = "|error of " + maps.front().quantity + "| [unit of the solution]";
       return gnuplot_script({plot});

@@ -12,6 +12,9 @@ namespace plumbline::report
   /// Errors of solutions of size one below this are drawn like it: they are rounded to as much.
   constexpr double smallest_drawn_error = 1e-16;
 
+  /// Of a problem on intervals: values along x.
+  bool is_curve(const study::ErrorMap &map);
+
   /// Of the colours of all maps together: from the smallest positive value, though not below
   /// round-off if anything is above that, to the largest; at least one decade, and whole ones if
   /// there are few. What lies below, zero too, has the colour of the lower end.

@@ -1,3 +1,4 @@
+#include "report/maps.h"
 #include "report/page_parts.h"
 #include "report/report_parts.h"
 #include "study/solution_record.h"
@@ -89,6 +90,7 @@ namespace plumbline::report::page
                             {"charts", std::move(small)},
                             {"n_small", n_small == 0 ? Data() : Data(n_small)},
                             {"is_open", n_small <= n_large},
+                            {"is_curve", !results.maps.empty() && is_curve(results.maps.front())},
                             {"geometry", geometry_words(results)}};
     }
     return data;

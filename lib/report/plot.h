@@ -42,8 +42,8 @@ namespace plumbline::report
         {}; ///< how far error bars reach up and down from the points, or empty
   };
 
-  /// Errors of fields of size one below this are of the size of rounding; the value by which
-  /// lib/study/trend.cc judges, so that pictures and verdicts agree.
+  /// Errors of fields of size one below this are drawn as round-off; a fixed value, while
+  /// lib/study/trend.cc judges by the round-off estimated for each run.
   constexpr double round_off = 1e-10;
 
   struct Plot
@@ -57,7 +57,7 @@ namespace plumbline::report
     std::vector<double> x_ticks;  ///< empty: powers of ten
     std::optional<Range> y_range; ///< of a linear axis; empty: from 0
     std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
-    std::string frontier_label = "best of all";
+    std::string frontier_label = "best that does not stall";
     std::vector<Line> lines; ///< at least one point in all
   };
 

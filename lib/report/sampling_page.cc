@@ -35,7 +35,7 @@ namespace plumbline::report
         "Error of the interpolant: the maximum of ‖u(ξ) − u^Q(ξ)‖, L2, over at most 32 samples of "
         "the last set that the set does not contain; u^Q is the polynomial through the samples of "
         "the set (Fan et al. 2022, section 3.2). Lebesgue constant: largest factor by which u^Q "
-        "amplifies errors of samples; of two values the second is an upper bound.";
+        "amplifies errors of samples; if two are given, it lies between them.";
 
     bool has_interpolant(const SamplingResults &results)
     {
@@ -154,9 +154,9 @@ namespace plumbline::report
         text += pair.method + " at h = " + rounded(pair.h) + " with count " +
                 std::to_string(pair.count) + words_of_modes(r, pair.n_modes) +
                 " is the cheapest choice with a relative " + (is_own(r) ? "difference" : "error") +
-                " of the mean below " + short_power(pair.target) + ": error " +
-                rounded(pair.error) + " [unit of the field], " + rounded_seconds(pair.seconds) +
-                " of CPU time. ";
+                " of the mean below " + short_power(pair.target) + ": error at most " +
+                rounded(pair.error) + " [unit of the field] with this count and larger ones, " +
+                rounded_seconds(pair.seconds) + " of CPU time. ";
       }
       else
       {

@@ -113,7 +113,7 @@ namespace plumbline::scene
     {
       require(scene.domain.is_periodic || is_on_intervals(scene),
               "Domain/dimension = 1 with Material/model = " + scene.material.model->name() +
-                  " needs Domain/boundary = periodic: a line has no interaction domain here");
+                  " needs Domain/boundary = periodic: this model supports no other in 1D");
       check_without_y(scene);
     }
     if (scene.domain.is_periodic)

@@ -30,6 +30,18 @@ namespace plumbline::study
                          });
     }
 
+    /// The largest error of a set and larger ones at its level: errors of h and of samples may
+    /// cancel in one of them.
+    double error_from(const CaseStatistics &one, const SetStatistics &set)
+    {
+      double largest = 0;
+      for (const SetStatistics &other : one.sets)
+        if (other.count >= set.count && other.n_modes >= set.n_modes && !other.is_target &&
+            other.mean_error)
+          largest = std::max(largest, *other.mean_error);
+      return largest;
+    }
+
     /// Of pairs of one problem and series that are as cheap as the cheapest, the simplest.
     CheapestPair simplest(const std::vector<CheapestPair> &pairs)
     {
@@ -59,8 +71,8 @@ namespace plumbline::study
         for (const SetStatistics &set : one.sets)
           if (set.mean_error && !one.is_target_level && stays_below(target, cases, one, set))
             pairs[one.of.problem + "\n" + one.of.series].push_back(
-                {one.of.method, one.of.problem, one.of.series, target, *set.mean_error, one.of.h,
-                 set.seconds, set.count, set.n_modes});
+                {one.of.method, one.of.problem, one.of.series, target, error_from(one, set),
+                 one.of.h, set.seconds, set.count, set.n_modes});
       for (const auto &[key, known] : pairs)
         result.push_back(simplest(known));
     }

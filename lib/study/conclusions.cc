@@ -279,19 +279,47 @@ namespace plumbline::study
         results.facts[what] = value;
     }
 
+    /// The run with most bonds, of those without a matrix or of all; null: there is none.
+    const Record *largest_run(const Records &records, bool is_without_matrix)
+    {
+      const std::string sparse = base::word(base::OperatorBackend::sparse);
+      const Record *largest = nullptr;
+      for (const Record &run : records)
+        if (run.failure.empty() &&
+            !(is_without_matrix && run.text("operator").compare(0, sparse.size(), sparse) == 0) &&
+            (largest == nullptr || run.cost.n_bonds > largest->cost.n_bonds))
+          largest = &run;
+      return largest;
+    }
+
+    std::string megabytes(double bytes)
+    {
+      return base::to_text(bytes / 1e6, 4) + " MB";
+    }
+
+    std::string where(const Record &run)
+    {
+      return " (" + run.key.method + ", h = " + base::to_text(run.key.h, 4) + ")";
+    }
+
+    Omission omitted_matrix(const Record &run)
+    {
+      constexpr double bytes_of_entry = 12;
+      const double bonds = static_cast<double>(run.cost.n_bonds),
+                   rows = std::max<double>(1., static_cast<double>(run.cost.n_unknowns));
+      return {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
+              "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +
+                  megabytes(bytes_of_entry * bonds) + "; the stencil holds " +
+                  base::to_text(bonds / rows, 4) + " a row" + where(run)};
+    }
+
     void list_omissions(const scene::Scene &scene, StudyResults &results)
     {
-      const Record *largest = nullptr;
-      for (const Record &run : results.records)
-        if (run.failure.empty() && (largest == nullptr || run.cost.n_bonds > largest->cost.n_bonds))
-          largest = &run;
+      const Record *const largest = largest_run(results.records, false);
       if (largest == nullptr)
         return;
       const double bonds = static_cast<double>(largest->cost.n_bonds);
-      const double rows = std::max<double>(1., static_cast<double>(largest->cost.n_unknowns));
-      const std::string where =
-          " (" + largest->key.method + ", h = " + base::to_text(largest->key.h, 4) + ")";
-      const auto megabytes = [](double bytes) { return base::to_text(bytes / 1e6, 4) + " MB"; };
+      const Record *const by_stencil = largest_run(results.records, true);
       if (!scene.domain.mesh.is_lattice() && !scene.domain.is_in_space())
       {
         results.omissions.push_back({"exact geometry in every cell",
@@ -301,20 +329,18 @@ namespace plumbline::study
           results.omissions.push_back({"a coefficient at every bond", "the material is homogeneous",
                                        "one evaluation a quadrature point"});
       }
-      else if (scene.domain.mesh.is_lattice() &&
+      else if (by_stencil != nullptr && scene.domain.mesh.is_lattice() &&
                scene.solver.operator_backend != base::OperatorBackend::sparse &&
                (!scene.domain.is_in_space() || scene.methods.nodes.are_lattice_centres()))
-        results.omissions.push_back(
-            {"a matrix", "uniform lattice and homogeneous kernel: all rows are one stencil",
-             "an assembled matrix would hold " + base::to_text(bonds, 4) + " entries, " +
-                 megabytes(12 * bonds) + "; the stencil holds " + base::to_text(bonds / rows, 4) +
-                 " a row" + where});
+        results.omissions.push_back(omitted_matrix(*by_stencil));
       if (scene.solver.is_full_model)
       {
         results.omissions.clear();
         return;
       }
-      if (!scene.is_vector())
+      if (scene.domain.dimension == 1)
+        ; // one component is all there is
+      else if (!scene.is_vector())
         results.omissions.push_back(
             {scene.domain.is_in_space() ? "the second and the third component"
                                         : "the second component",
@@ -333,17 +359,19 @@ namespace plumbline::study
                  " of the unknowns, and a system that stays positive definite"});
       if (scene.material.model->is_state_based() && scene.material.is_homogeneous)
         results.omissions.push_back({"means of the material at both ends of each bond",
-                                     "the material is homogeneous", megabytes(16 * bonds) + where});
+                                     "the material is homogeneous",
+                                     megabytes(16 * bonds) + where(*largest)});
       results.omissions.push_back(
           {"Newton's method", "the model is linear",
            (largest->cost.n_iterations == 0
                 ? std::string("one direct solve a level")
                 : "one solve of " + std::to_string(largest->cost.n_iterations) +
                       " iterations a level") +
-               where});
+               where(*largest)});
       if (!scene.domain.is_damaged())
-        results.omissions.push_back({"bond state", "no fracture: no bond can break",
-                                     megabytes(bonds / 8) + " at one bit a bond" + where});
+        results.omissions.push_back(
+            {"bond state", "no fracture: no bond can break",
+             megabytes(bonds / 8) + " at one bit a bond" + where(*largest)});
     }
   } // namespace
 

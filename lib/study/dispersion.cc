@@ -454,7 +454,7 @@ namespace plumbline::study
         trend->reason = !record.failure.empty()
                             ? record.failure
                             : "waves grow at h = " + base::to_text(key.h, 4) +
-                                  (grows ? ", the least ω² is " +
+                                  (grows ? ", the smallest ω² is " +
                                                base::to_text(record["least squared frequency"], 4)
                                          : ", also those of the nonlocal operator itself");
         continue;

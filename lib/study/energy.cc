@@ -259,7 +259,7 @@ namespace plumbline::study
         record.set(scene::DecisiveError{scene::Norm::energy, target}.text(), *norm, norm_unit);
       else
         record.notes.push_back("no energy norm of the error against the " + base::word(target) +
-                               " solution: its energy is negative, as the operator of the rule is "
+                               " solution: a(e, e) is negative because the rule's operator is "
                                "not positive definite");
     };
     if (problem.solution)

@@ -21,9 +21,9 @@ namespace plumbline::study
   /// ½ a(u, u) of values at all nodes, constrained ones last, shape (n_nodes · n_components):
   /// ½ [Σ_i w_i u_i·(A u)_i + Σ_ij w_i (u_i - g_j)·A_ij g_j], j over constrained nodes. The first
   /// sum alone lacks what constrained nodes add; the second is from bonds between free and
-  /// constrained nodes, -w_i A_ij, as A annihilates constants. What depends on the constraint alone
-  /// is left out but for these bonds: energies of one constraint differ by what ½ a(u, u) does, and
-  /// constants have none. Of zero constraints it is ½ Σ_i w_i u_i·(A u)_i.
+  /// constrained nodes, -w_i A_ij, as A annihilates constants. Other terms of the constraint alone
+  /// are omitted: for one constraint, differences of energies are those of ½ a(u, u), and
+  /// constants have energy 0. For a zero constraint it is ½ Σ_i w_i u_i·(A u)_i.
   template <int dim>
   double energy(const method::LinearEquations<dim> &of, const std::vector<double> &values);
 
@@ -43,8 +43,8 @@ namespace plumbline::study
   /// - "energy size", to which these are relative: √(2 energy); where that is not positive, the
   ///   bound below times the variation of the solution. "largest energy norm": √(Σ w_i |a_ij|),
   ///   which bounds √a(e, e) / max|e|.
-  /// The equations are made anew for it. Of bodies with a free boundary, whose rules have no sparse
-  /// matrix, by its action.
+  /// The equations are assembled again. For bodies with a free boundary, whose rules have no sparse
+  /// matrix, the operator is applied instead.
   /// @param nodes  the free ones
   /// @param nodal  u_h there, shape (n_free, n_components)
   /// @param ranks  that share nodal values; the norm is for one

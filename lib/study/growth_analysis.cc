@@ -265,12 +265,11 @@ namespace plumbline::study
           known += (known.empty() ? "" : ", ") + method->name();
       }
       else if (method->name() == name && method->family() == method::MethodFamily::meshfree)
-        corrected = "' corrects bonds of bodies that stay whole; take one of ";
+        corrected = "' does not support bonds that break; take one of ";
     throw InputError("Methods/names = '" + name +
-                     (!corrected.empty()
-                          ? corrected
-                          : "' is no meshfree rule, but cracks are open to those "
-                            "alone (Galerkin fields would need jumps); take one of ") +
+                     (!corrected.empty() ? corrected
+                                         : "' is not a meshfree rule; only these support cracks "
+                                           "(Galerkin spaces would need jumps); take one of ") +
                      known);
   }
 

@@ -80,7 +80,7 @@ namespace plumbline::study
                                   "(√μ∞ + (λ∞ − λ0)/√μ0)² = " + number(one.right);
       const std::string n = std::to_string(n_points);
       return one.holds() ? (is_sampled ? "holds at " + n + " × " + n +
-                                             " points of each box; it is not proven between them: "
+                                             " points of each box; not proven between them: "
                                        : "holds, so that the problem is well posed: ") +
                                numbers
                          : "does not hold, so theorem 1 does not apply (it is sufficient, not "

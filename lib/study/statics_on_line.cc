@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -112,22 +111,6 @@ namespace plumbline::study
                    size = averages_l2(problem.h(), solution.averages);
       conclude_from_changes(estimate, q, size, problem.settings.solver.tolerance);
       return estimate;
-    }
-
-    /// Nodes and the solution there, in order.
-    void write_csv(const SolutionOnLine &solution, const std::string &file)
-    {
-      constexpr int n_digits = 17;
-      std::vector<std::pair<double, double>> rows;
-      for (std::size_t i = 0; i < solution.nodes.size(); ++i)
-        rows.emplace_back(solution.nodes[i], solution.nodal[i]);
-      std::sort(rows.begin(), rows.end());
-      std::ofstream out(file);
-      out << "x,u\n";
-      for (const auto &[x, u] : rows)
-        out << base::to_text(x, n_digits) << ',' << base::to_text(u, n_digits) << '\n';
-      if (!out.flush())
-        throw InputError("cannot write '" + file + "'");
     }
 
     /// Cells of a block: a curve has at most 256 points.
@@ -247,8 +230,8 @@ namespace plumbline::study
                          const Record &run) const
       {
         if (options_.on_finest)
-          options_.on_finest([&](const std::string &stem) { write_csv(solution, stem + ".csv"); },
-                             run);
+          options_.on_finest(
+              [&](const std::string &stem) { method::write_csv(solution, stem + ".csv"); }, run);
         if (one.drawn() && is_drawn(place_, run))
           add_map(place_, curve_of(one.problem, solution.averages, *one.drawn()), run);
       }

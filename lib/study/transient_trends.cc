@@ -66,7 +66,7 @@ namespace plumbline::study
       constexpr int n_digits = 4;
       return record.has(growing_waves)
                  ? "waves grow at h = " + base::to_text(record.key.h, n_digits) +
-                       ", the least ω² is " + base::to_text(record[growing_waves], n_digits)
+                       ", the smallest ω² is " + base::to_text(record[growing_waves], n_digits)
                  : "";
     }
 

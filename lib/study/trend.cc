@@ -283,8 +283,9 @@ namespace plumbline::study
 
   double observed_rate(const Trend &trend, std::size_t i)
   {
+    constexpr double above = 5; // round-off of a fifth of the error changes a rate by .3
     const bool is_there = i > 0 && i <= trend.rates.size() && i < trend.values.size();
-    return is_there && std::min(trend.values[i - 1], trend.values[i]) > trend.round_off
+    return is_there && std::min(trend.values[i - 1], trend.values[i]) > above * trend.round_off
                ? trend.rates[i - 1]
                : std::numeric_limits<double>::quiet_NaN();
   }

@@ -10,7 +10,7 @@ namespace plumbline::uq
 {
   /// The interpolant of a rule, J[v](ξ) = Σ_k v(ξ_k) J_k(ξ): of tensor products the Lagrange
   /// polynomials, of Smolyak's rule the same combination of products as of its weights. It is v at
-  /// all points where they are tensor products or nested, and not at each point of other sparse
+  /// all points of tensor products and of nested grids, but not at every point of other sparse
   /// grids.
   /// Source: Fan et al. 2022, doi:10.1016/j.cma.2022.115340, eqs. (3.6)-(3.9).
   class Interpolant
@@ -21,14 +21,14 @@ namespace plumbline::uq
     static Interpolant chebyshev(std::size_t n_variables, unsigned int n);
     static Interpolant smolyak(const std::vector<Law> &laws, unsigned int level, Growth growth);
 
-    /// All that J needs, which of Smolyak's rule may be more than have weights. Shape (n,
+    /// All points that J needs; for Smolyak's rule, also points whose weight is 0. Shape (n,
     /// n_variables), each once.
     const std::vector<std::vector<double>> &points() const { return points_; }
 
     /// J_k(ξ), shape (n).
     std::vector<double> coefficients(const std::vector<double> &at) const;
 
-    /// Λ = max Σ_k |J_k(ξ)| over [-1, 1]^n_variables: by how much J may enlarge the largest value.
+    /// Λ = max Σ_k |J_k(ξ)| over [-1, 1]^n_variables: the operator norm of J (sup norm).
     struct Lebesgue
     {
       double found = 1; ///< a maximum that was found, which is Λ to 1e-6 for tensor products

@@ -14,8 +14,8 @@ namespace plumbline::meshfree
   using AxisSums = std::array<double, 2>;
 
   /// A correction of bonds near free surfaces, where families are truncated and a solid of bonds is
-  /// too soft: the stiffness of each bond is multiplied by a factor, which sums over the families
-  /// at its two ends determine. Forces keep their energy. For bonds of a solid in the plane,
+  /// too soft: the stiffness of each bond is multiplied by a factor computed from sums over the
+  /// families at its ends. Forces still derive from an energy. For bonds of a solid in the plane,
   /// C = c(r) d⊗d/r².
   /// Survey: Le & Bobaru 2018, doi:10.1007/s00466-017-1469-1.
   struct SurfaceCorrection

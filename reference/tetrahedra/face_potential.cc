@@ -136,7 +136,7 @@ namespace plumbline::reference
     for (const PotentialTerms &part : terms(kernel))
       for (const auto &[coefficient, exponent] : part.terms)
         if (exponent > highest_exponent)
-          return "entries on tetrahedra are for powers up to r^" +
+          return "exact entries on tetrahedra support powers up to r^" +
                  std::to_string(highest_exponent) + ", not r^" + std::to_string(exponent) +
                  "; give fewer coefficients";
     return "";

@@ -441,7 +441,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Fracture/largest load=0"), "Fracture/max load = 0 must be positive");
   expect_refused(set("Fracture/ties=-1"), "Fracture/ties");
   expect_refused(set("Expected/growth=holes: 3"), "the quantity one of broken bonds");
-  expect_refused(body + "--methods Q1", "'Q1' is no meshfree rule");
+  expect_refused(body + "--methods Q1", "'Q1' is not a meshfree rule");
   expect_refused(body + "--methods FA+energy",
-                 "'FA+energy' corrects bonds of bodies that stay whole; take one of FA, LAMMPS");
+                 "'FA+energy' does not support bonds that break; take one of FA, LAMMPS");
 }

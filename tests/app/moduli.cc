@@ -109,7 +109,7 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--rules XY", "choose all or some of FA, LAMMPS");
   expect("--rules XY", "GFD, PDDO, GMLS, IPA-AC-R2c");
   for (const std::string rule : {"PDDO", "gmls"})
-    expect("--rules FA," + rule, "has weights for scalar kernels alone, which have no elastic "
+    expect("--rules FA," + rule, "supports scalar kernels only, which have no elastic "
                                  "constants; take GFD or IPA-AC-R2");
   expect("--state solid", "choose 'plane stress', 'plane strain' or 3D");
   expect("--E 0", "give a number above 0");

@@ -204,7 +204,7 @@ TEST(LoadOnLine, is_exact_for_polynomials_waves_and_kinks)
   // u(.37 + r) + u(.37 - r) - 2u = 2 (r - .07) beyond the kink
   EXPECT_NEAR(kink(Point(x), 0), -kernel.constant() * std::pow(delta - .07, 2), 1e-9);
   // nothing but at the ends of the ball, where first points see no more than 0
-  constexpr double end = .99 * delta;
+  constexpr double end = .995 * delta;
   const auto late = physics::load_on_line(kernel, [](const Point &p, unsigned int)
                                           { return std::max(0., p[0] - x - end); });
   EXPECT_NEAR(late(Point(x), 0), -kernel.constant() * std::pow(delta - end, 2) / 2, 1e-12);

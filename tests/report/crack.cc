@@ -39,10 +39,10 @@ namespace plumbline::report
 
   TEST(CrackReport, GivesSpeedAndAdvanceWithUnits)
   {
-    EXPECT_EQ(
-        crack_view(moved(scene::CrackOutcome::runs)).answer,
-        "At 2 times its threshold the crack runs at a speed of 0.5 [length/time], 0.625 of the "
-        "Rayleigh wave speed, at most 0.75; the solution is symmetric to the last bit.");
+    EXPECT_EQ(crack_view(moved(scene::CrackOutcome::runs)).answer,
+              "At 2 times its threshold the crack runs; its mean speed is 0.5 [length/time], 0.625 "
+              "of the "
+              "Rayleigh wave speed, at most 0.75; the solution is symmetric to the last bit.");
     EXPECT_EQ(crack_view(moved(scene::CrackOutcome::arrests)).answer,
               "At 2 times its threshold the crack arrests after its tip advanced by 3 [length], 2 "
               "horizons; the solution is symmetric to the last bit.");

@@ -470,7 +470,7 @@ TEST(Motions, of_rules_whose_waves_grow_are_no_result)
   const StudyResults good = of("2"), bad = of("3");
   EXPECT_TRUE(good.warnings.empty());
   ASSERT_EQ(bad.warnings.size(), 1u);
-  EXPECT_EQ(bad.warnings[0].find("PDDO: waves grow at h = 0.2, the least ω² is -"), 0u)
+  EXPECT_EQ(bad.warnings[0].find("PDDO: waves grow at h = 0.2, the smallest ω² is -"), 0u)
       << bad.warnings[0];
   for (const auto *results : {&good, &bad})
     for (const Trend &trend : over_levels(*results))
