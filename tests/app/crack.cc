@@ -174,7 +174,7 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   expect_refused(set("Domain/boxes=0, 0 : 3, 0.975"), "even number of mesh sizes");
   expect_refused(set("Domain/boxes=0, 0 : 3, 0.3"), "less than four horizons");
   expect_refused(set("Problem/solution=x, y"), "Problem/solution, load and constraint");
-  expect_refused(strip + "--methods Q1", "'Q1' is no meshfree rule");
+  expect_refused(strip + "--methods Q1", "'Q1' is not a meshfree rule");
   expect_refused(strip + "--methods FA,PA-AC", "one meshfree method");
   expect_refused("run " + scene("speed"), "'plumbline crack' simulates it");
 }
