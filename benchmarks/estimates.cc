@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "estimate_audit.h"
+#include "method/another_operator.h"
 #include "reference/method.h"
 #include "scene/problem.h"
 #include "study/refusal.h"
@@ -47,7 +48,7 @@ namespace
           if (!is_wrong_on_purpose(name, scene.problem.case_names()[c]))
             for (const auto &series : scene.study.series)
               for (const auto &method : reference::methods())
-                if (method->family() == method::MethodFamily::reference)
+                if (method::is_reference(*method))
                   add(name, scene, c, series, *method);
       }
       catch (const InputError &error)

@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "callables.h"
 #include "geometry/mesh_input.h"
+#include "method/another_operator.h"
 #include "method/lattice_discretisation.h"
 #include "problem/builder.h"
 #include "problem/inside.h"
@@ -251,6 +252,9 @@ namespace plumbline::python
         throw InputError("method = '" + found->name() +
                          "' is no Galerkin method, which references are made by; choose one "
                          "(plumbline.methods())");
+      if (const auto *other = method::of_another_operator(*found))
+        throw InputError("method = '" + found->name() + "' " + other->what_it_does() +
+                         "; choose Q2 or another Galerkin method (plumbline.methods())");
       const py::gil_scoped_release others;
       refuse_unless_able(*found, of->problem);
       Solved result{of, found->name(), analysis::solve(*found, of->problem)};

@@ -3,6 +3,7 @@
 #include "method/lattice_discretisation.h"
 #include "reference/lattice/discretisation.h"
 #include "reference/lattice/intervals.h"
+#include "reference/lattice/polygonal_ball.h"
 #include "reference/lattice/torus_motion.h"
 #include "reference/local/local_limit.h"
 #include "reference/mesh/discretisation.h"
@@ -222,6 +223,8 @@ namespace plumbline::reference
     for (const bool is_continuous : {true, false})
       methods.push_back(std::make_shared<GalerkinMethod>(3, is_continuous, 1, true));
     methods.push_back(std::make_shared<LocalMethod>());
+    const method::Methods polygonal = polygonal_balls();
+    methods.insert(methods.end(), polygonal.begin(), polygonal.end());
     return methods;
   }
 } // namespace plumbline::reference

@@ -2,6 +2,7 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
+#include "method/another_operator.h"
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "study/motion_norms.h"
@@ -55,7 +56,7 @@ namespace plumbline::study
 
   bool wants_estimate(const scene::Scene &scene, const Method &method)
   {
-    if (method.family() != MethodFamily::reference || scene.time.shows_blow_up)
+    if (!method::is_reference(method) || scene.time.shows_blow_up)
       return false;
     const bool is_known = scene.reference.method.has_value() || !scene.problem.solutions.empty();
     return scene.reference.estimate == scene::Estimate::every ||

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/similar_words.h"
 #include "geometry/tetrahedral_domain.h"
+#include "method/another_operator.h"
 #include "scene/capabilities.h"
 #include "scene/damage.h"
 #include "scene/mesh.h"
@@ -97,6 +98,10 @@ namespace plumbline::study
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' is no Galerkin method, so nothing is known of its error; choose Q2, P2 "
                          "or another ('plumbline list methods')");
+      if (const auto *other = method::of_another_operator(*reference))
+        throw InputError("Reference/method: '" + *scene.reference.method + "' " +
+                         other->what_it_does() +
+                         "; choose Q2 or another Galerkin method ('plumbline list methods')");
       if (const std::string reason = reason_against(*reference); !reason.empty())
         throw InputError("Reference/method: '" + *scene.reference.method +
                          "' cannot do this scene: " + reason);

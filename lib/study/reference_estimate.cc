@@ -1,6 +1,7 @@
 #include "study/reference_estimate.h"
 
 #include "base/error.h"
+#include "method/another_operator.h"
 #include "study/resized.h"
 
 #include <algorithm>
@@ -91,8 +92,7 @@ namespace plumbline::study
 
   bool is_estimated(const scene::Scene &scene, const Method &method)
   {
-    return method.family() == method::MethodFamily::reference &&
-           method.name() != scene.reference.method &&
+    return method::is_reference(method) && method.name() != scene.reference.method &&
            (scene.reference.estimate == scene::Estimate::every ||
             (scene.reference.estimate == scene::Estimate::automatic && !scene.reference.method &&
              scene.problem.solutions.empty()));

@@ -2,6 +2,7 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "method/another_operator.h"
 #include "scene/on_line.h"
 #include "study/compared_case.h"
 #include "study/comparison.h"
@@ -196,7 +197,7 @@ namespace plumbline::study
                                    const std::vector<dealii::Point<2>> &points) const
       {
         const bool is_shown = is_estimated(scene_, method),
-                   is_at_points = !points.empty() && method.family() == MethodFamily::reference &&
+                   is_at_points = !points.empty() && method::is_reference(method) &&
                                   scene_.reference.estimate != scene::Estimate::none;
         if (!is_shown && !is_at_points)
           return {};

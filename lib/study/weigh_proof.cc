@@ -73,6 +73,10 @@ namespace plumbline::study
                              const std::vector<LimitProof> &levels)
   {
     LimitProof proof;
+    const auto is_incompatible = [](const LimitProof &level)
+    { return level.answer == LimitProof::Answer::incompatible; };
+    if (!levels.empty() && std::all_of(levels.begin(), levels.end(), is_incompatible))
+      return levels.back(); // whatever the levels
     std::vector<double> of_ball, of_areas;
     for (const LimitProof &level : levels)
     {

@@ -9,6 +9,7 @@
 #include "reference/lattice/double_well_motion.h"
 #include "reference/lattice/field.h"
 #include "reference/lattice/mass.h"
+#include "reference/lattice/polygonal_ball.h"
 #include "reference/lattice/stencil.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -124,11 +125,14 @@ namespace plumbline::reference
       return load;
     }
 
-    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const AxisShapes &shapes)
+    /// @param n_sides  of the polygon that replaces the ball; 0: the ball
+    algebra::Stencil make_stencil(const problem::Problem<2> &problem, const AxisShapes &shapes,
+                                  unsigned int n_sides)
     {
       const double h = problem.lattice()->h();
-      const algebra::Stencil bonds =
-          galerkin_stencil(problem.kernel, h, shapes, problem.settings.geometry.backend);
+      const geometry::Polygon polygon = inscribed_polygon(problem.horizon(), n_sides);
+      const algebra::Stencil bonds = galerkin_stencil(
+          problem.kernel, h, shapes, problem.settings.geometry.backend, geometry::view(polygon));
       if (!problem.dilatation)
         return bonds;
       const physics::Lame lame = problem.dilatation->material({});
@@ -161,17 +165,20 @@ namespace plumbline::reference
     class GalerkinOnLattice : public method::LatticeDiscretisation
     {
     public:
-      GalerkinOnLattice(const problem::Problem<2> &problem, const AxisShapes &shapes)
+      GalerkinOnLattice(const problem::Problem<2> &problem, const AxisShapes &shapes,
+                        unsigned int n_sides)
           : LatticeDiscretisation(
                 problem, free_nodes(*problem.lattice(), shapes.families(), problem.n_components),
-                make_stencil(problem, shapes), masses(shapes, problem.lattice()->h())),
+                make_stencil(problem, shapes, n_sides), masses(shapes, problem.lattice()->h())),
             shapes_(shapes), horizon_(problem.horizon()),
-            n_geometry_checks_(problem.settings.geometry.n_checks),
+            n_geometry_checks_(n_sides == 0 ? problem.settings.geometry.n_checks : 0),
             seed_(problem.settings.geometry.seed),
             cells_(method::comparison_nodes(problem, problem.n_components)),
             wells_(problem.double_well && problem.is_periodic() ? &problem : nullptr)
       {
-        if (shapes.degree() == 0)
+        if (n_sides > 0)
+          limit_ = limit_of_polygon(problem, n_sides);
+        else if (shapes.degree() == 0)
           limit_ = method::prove_by_moments(problem, stencil(), problem.h * problem.h);
         else
           limit_ = method::prove_galerkin(problem, {});
@@ -276,8 +283,9 @@ namespace plumbline::reference
   }
 
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const problem::Problem<2> &problem,
-                                                                const AxisShapes &shapes)
+                                                                const AxisShapes &shapes,
+                                                                unsigned int n_sides)
   {
-    return std::make_unique<GalerkinOnLattice>(problem, shapes);
+    return std::make_unique<GalerkinOnLattice>(problem, shapes, n_sides);
   }
 } // namespace plumbline::reference

@@ -10,8 +10,10 @@ namespace plumbline::reference
   /// they are smooth, data of the collar interpolated at the support points, the geometry checked
   /// on a sample of cut cells. Masses by the diagonal of the mass matrix, scaled to the area of
   /// each cell: Hinton, Rock & Zienkiewicz 1976, doi:10.1002/eqe.4290040305.
+  /// @param n_sides  of the polygon that replaces the ball, see polygonal_ball.h; 0: the ball
   std::unique_ptr<method::Discretisation> discretise_on_lattice(const problem::Problem<2> &problem,
-                                                                const AxisShapes &shapes);
+                                                                const AxisShapes &shapes,
+                                                                unsigned int n_sides = 0);
 
   /// On a box in space.
   /// @pre shapes of one family: continuous ones of degree 1, or constants

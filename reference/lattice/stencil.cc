@@ -1,5 +1,7 @@
 #include "reference/lattice/stencil.h"
 
+#include "geometry/polygon.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,34 +9,18 @@ namespace plumbline::reference
 {
   namespace
   {
+    using geometry::ArrayView;
     using geometry::Point;
 
     /// ∫ over cell ∩ ball of C_ab(z) P_p(x) P_q(y) dz, x and y the cell's own coordinates in [-1,
     /// 1], for (a,b) = (0,0), (0,1), (1,1): index (ab n_modes + p) n_modes + q.
     using CellMoments = std::vector<double>;
 
-    /// Gauss points in the angle and in the radius, exact for the profile times r times the shape
-    /// functions' products on a cell.
-    /// @param kernel  without breaks
-    geometry::CutRule rule_on(const std::array<Point<2>, 4> &cell, double h,
-                              const physics::Kernel<2> &kernel, unsigned int n_modes,
-                              geometry::Backend backend)
-    {
-      const physics::RadialProfile &profile = kernel.profile();
-      const unsigned int degree = profile.degree(std::min(1., h * M_SQRT2 / kernel.horizon()));
-      const int exponent = std::max(0, profile.lowest_exponent() + static_cast<int>(degree));
-      const unsigned int n_angles = 16 + (profile.is_function() ? degree / 2 : 0),
-                         n_radii = std::max(
-                             10u, (static_cast<unsigned int>(exponent) + 2 * n_modes) / 2 + 1);
-      return geometry::polar_rule({Point<2>(), kernel.horizon()}, geometry::view(cell), n_angles,
-                                  n_radii, backend);
-    }
-
     class MomentTable
     {
     public:
       MomentTable(const physics::Kernel<2> &kernel, double h, unsigned int n_modes,
-                  geometry::Backend backend);
+                  geometry::Backend backend, ArrayView<const Point<2>> polygon);
 
       int n_cells() const { return n_; }
 
@@ -52,7 +38,8 @@ namespace plumbline::reference
         return static_cast<std::size_t>(big) * (big + 1) / 2 + small;
       }
       void integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
-                     geometry::Backend backend, CellMoments &moments) const;
+                     geometry::Backend backend, ArrayView<const Point<2>> polygon,
+                     CellMoments &moments) const;
 
       int n_;
       unsigned int n_modes_, n_pairs_;
@@ -60,7 +47,7 @@ namespace plumbline::reference
     };
 
     MomentTable::MomentTable(const physics::Kernel<2> &kernel, double h, unsigned int n_modes,
-                             geometry::Backend backend)
+                             geometry::Backend backend, ArrayView<const Point<2>> polygon)
         : n_(static_cast<int>(std::ceil(kernel.horizon() / h * (1 - 1e-14)))), n_modes_(n_modes),
           n_pairs_(kernel.n_components() == 1 ? 1 : 3)
     {
@@ -70,18 +57,25 @@ namespace plumbline::reference
         {
           CellMoments moments;
           for (const physics::Kernel<2> &part : parts)
-            integrate(part, h, i, j, backend, moments);
+            integrate(part, h, i, j, backend, polygon, moments);
           octant_.push_back(std::move(moments));
         }
     }
 
     void MomentTable::integrate(const physics::Kernel<2> &kernel, double h, int i, int j,
-                                geometry::Backend backend, CellMoments &moments) const
+                                geometry::Backend backend, ArrayView<const Point<2>> polygon,
+                                CellMoments &moments) const
     {
       if (h * std::hypot(i, j) >= kernel.horizon())
         return;
       const auto cell = geometry::square(Point<2>(i * h, j * h), h);
-      const geometry::CutRule rule = rule_on(cell, h, kernel, n_modes_, backend);
+      geometry::Polygon cut(cell.begin(), cell.end());
+      if (polygon.size() > 0)
+        cut = geometry::overlap(geometry::view(cell), polygon);
+      if (cut.empty())
+        return;
+      const geometry::CutRule rule = kernel_rule(kernel, geometry::view(cut),
+                                                 h * M_SQRT2 / kernel.horizon(), n_modes_, backend);
 
       moments.resize(n_pairs_ * n_modes_ * n_modes_);
       std::vector<double> x(n_modes_), y(n_modes_);
@@ -159,14 +153,28 @@ namespace plumbline::reference
     }
   } // namespace
 
+  geometry::CutRule kernel_rule(const physics::Kernel<2> &kernel, ArrayView<const Point<2>> polygon,
+                                double length, unsigned int n_modes, geometry::Backend backend)
+  {
+    const physics::RadialProfile &profile = kernel.profile();
+    const unsigned int degree = profile.degree(std::min(1., length));
+    const int exponent = std::max(0, profile.lowest_exponent() + static_cast<int>(degree));
+    const unsigned int n_angles = 16 + (profile.is_function() ? degree / 2 : 0),
+                       n_radii = std::max(
+                           10u, (static_cast<unsigned int>(exponent) + 2 * n_modes) / 2 + 1);
+    return geometry::polar_rule({Point<2>(), kernel.horizon()}, polygon, n_angles, n_radii,
+                                backend);
+  }
+
   algebra::Stencil galerkin_stencil(const physics::Kernel<2> &kernel, double h,
-                                    const AxisShapes &shapes, geometry::Backend backend)
+                                    const AxisShapes &shapes, geometry::Backend backend,
+                                    ArrayView<const Point<2>> polygon)
   {
     const Correlations r(shapes);
     const unsigned int n_modes = r.n_modes();
     const auto n_axis = static_cast<unsigned int>(shapes.families().size());
     const unsigned int n_families = n_axis * n_axis, n_components = kernel.n_components();
-    const MomentTable table(kernel, h, n_modes, backend);
+    const MomentTable table(kernel, h, n_modes, backend, polygon);
     const int n = table.n_cells();
 
     algebra::Stencil stencil(n_components * n_families, n + 1);

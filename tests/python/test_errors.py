@@ -60,6 +60,8 @@ def test_kinds():
      lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "P1")),
     (["FA", "no Galerkin method"],
      lambda: plumbline.reference(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "FA")),
+    (["Q1+polygon8", "replaces the ball by a polygon of 8 sides", "choose Q2"],
+     lambda: plumbline.reference(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "Q1+polygon8")),
     (["points[0]", "outside"],
      lambda: plumbline.solve(plumbline.Problem(KERNEL, boxes=SQUARE, h=.1), "FA")([[2, 2]])),
     (["no-such.prm"], lambda: plumbline.run("no-such.prm")),

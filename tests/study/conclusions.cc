@@ -3,6 +3,7 @@
 #include "study/conclusions.h"
 #include "study/cheapest.h"
 #include "study/solution_record.h"
+#include "study/weigh_proof.h"
 
 #include <gtest/gtest.h>
 
@@ -596,6 +597,23 @@ TEST(Conclusions,
             "delta-m-convergent for this field only");
   EXPECT_EQ(verdict(refined("delta-m", "exact", second_order, falling, {.03, .01, .002, .008})),
             "delta-m-convergent");
+}
+
+TEST(Conclusions, what_is_proven_wrong_at_every_level_is_wrong_without_weights)
+{
+  LimitProof wrong;
+  wrong.answer = LimitProof::Answer::incompatible;
+  wrong.defect = .05;
+  wrong.reason = "another operator";
+  for (const auto regime : {scene::Regime::m, scene::Regime::delta_m})
+  {
+    const LimitProof found = prove_by_levels(regime, Trend(), {wrong, wrong});
+    EXPECT_EQ(found.answer, LimitProof::Answer::incompatible);
+    EXPECT_EQ(found.defect, .05);
+    EXPECT_EQ(found.reason, "another operator");
+    for (const auto &levels : {std::vector<LimitProof>{}, {wrong, LimitProof()}})
+      EXPECT_EQ(prove_by_levels(regime, Trend(), levels).answer, LimitProof::Answer::unknown);
+  }
 }
 
 TEST(Conclusions, a_fixed_horizon_against_the_local_solution_decides_nothing)

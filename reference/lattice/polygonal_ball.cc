@@ -1,0 +1,127 @@
+#include "reference/lattice/polygonal_ball.h"
+
+#include "base/number_text.h"
+#include "method/another_operator.h"
+#include "method/lattice_discretisation.h"
+#include "reference/lattice/discretisation.h"
+#include "reference/lattice/stencil.h"
+
+#include <array>
+#include <cmath>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using geometry::Point;
+
+    /// Scalar kernels alone: the moments that decide the limit of bond tensors are of fourth order.
+    class PolygonalBall : public method::Method, public method::AnotherOperator
+    {
+    public:
+      PolygonalBall(unsigned int degree, unsigned int n_sides)
+          : shapes_(true, degree), n_sides_(n_sides)
+      {
+      }
+      std::string name() const override
+      {
+        return without_polygon() + "+polygon" + std::to_string(n_sides_);
+      }
+      method::MethodFamily family() const override { return method::MethodFamily::reference; }
+      std::string help() const override
+      {
+        return without_polygon() + " on lattices, scalar kernels, the ball replaced by the " +
+               "inscribed regular polygon of " + std::to_string(n_sides_) +
+               " sides (not asymptotically compatible)";
+      }
+      bool is_in_all() const override { return false; }
+      std::string what_it_does() const override
+      {
+        return "replaces the ball by a polygon of " + std::to_string(n_sides_) +
+               " sides, so that its solutions tend to those of another operator";
+      }
+
+      method::Capabilities can() const override
+      {
+        using method::Capability;
+        return {Capability::lattice, Capability::nonlocal, Capability::dynamic};
+      }
+      std::string why_not(const problem::Problem<2> &problem) const override
+      {
+        if (problem.n_components == 1)
+          return "";
+        return "it is for scalar kernels (Kernel/limit = -1/2 Laplace or -Laplace), and this one "
+               "is a bond tensor; write a scalar kernel, or take " +
+               without_polygon();
+      }
+
+      std::unique_ptr<method::Discretisation>
+      discretise(const problem::Problem<2> &problem,
+                 const base::Communicator & /*communicator*/) const override
+      {
+        return discretise_on_lattice(problem, shapes_, n_sides_);
+      }
+
+      unsigned int order() const override { return shapes_.degree() + 1; }
+      double expected_bytes(const method::ProblemSize &size) const override
+      {
+        return method::expected_lattice_bytes(size, shapes_.degree() * shapes_.degree(),
+                                              size.n_components, size.reach() / size.level.h + 1);
+      }
+
+    private:
+      std::string without_polygon() const { return "Q" + std::to_string(shapes_.degree()); }
+
+      AxisShapes shapes_;
+      unsigned int n_sides_;
+    };
+  } // namespace
+
+  geometry::Polygon inscribed_polygon(double horizon, unsigned int n_sides)
+  {
+    geometry::Polygon polygon;
+    for (unsigned int k = 0; k < n_sides; ++k)
+    {
+      const double angle = 2 * M_PI * k / n_sides;
+      polygon.emplace_back(horizon * std::cos(angle), horizon * std::sin(angle));
+    }
+    return polygon;
+  }
+
+  double second_moment_ratio(const physics::Kernel<2> &kernel, unsigned int n_sides)
+  {
+    // the sector of one side; by symmetry ∫ C ξ_1² is half of ∫ C r²
+    const geometry::Polygon polygon = inscribed_polygon(kernel.horizon(), n_sides);
+    const std::array<Point<2>, 3> sector = {Point<2>(), polygon[0], polygon[1]};
+    double sum = 0;
+    for (const physics::Kernel<2> &part : kernel.parts())
+    {
+      const geometry::CutRule rule =
+          kernel_rule(part, {sector.data(), sector.size()}, 1, 2, geometry::Backend::fast);
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
+        sum += rule.weights[q] * part.radial(rule.points[q].norm()) * rule.points[q].norm_square();
+    }
+    return n_sides * sum / 2 / kernel.moment({2, 0});
+  }
+
+  method::LimitProof limit_of_polygon(const problem::Problem<2> &problem, unsigned int n_sides)
+  {
+    method::LimitProof proof;
+    if (!problem.settings.tends_to_local_limit && problem.settings.ball_order == 0)
+      return proof;
+    proof.answer = method::LimitProof::Answer::incompatible;
+    proof.defect = std::abs(second_moment_ratio(problem.kernel, n_sides) - 1);
+    proof.reason = "a polygon of " + std::to_string(n_sides) +
+                   " sides replaces the ball: second moments are off by " +
+                   base::to_text(100 * proof.defect, 3) + " %";
+    return proof;
+  }
+
+  method::Methods polygonal_balls()
+  {
+    method::Methods methods;
+    for (const unsigned int n_sides : {8u, 16u, 32u})
+      methods.push_back(std::make_shared<PolygonalBall>(1, n_sides));
+    return methods;
+  }
+} // namespace plumbline::reference

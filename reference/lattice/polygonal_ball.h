@@ -1,0 +1,33 @@
+#pragma once
+
+#include "geometry/polygon.h"
+#include "method/diagnostics.h"
+#include "method/method.h"
+#include "physics/kernel.h"
+
+namespace plumbline::reference
+{
+  /// The regular polygon of n sides inscribed in the ball around the origin, with a vertex on each
+  /// half axis. Symmetric about both axes and under exchange of x and y.
+  /// @param n_sides  a multiple of 4
+  geometry::Polygon inscribed_polygon(double horizon, unsigned int n_sides);
+
+  /// ∫ C ξ_1² over the inscribed polygon, relative to that over the ball: what second moments, and
+  /// with them the local limit, are multiplied by where the polygon replaces the ball. In the
+  /// polygon the radius ends at δ cos α / cos θ, α = π/n, -α <= θ <= α about the normal of a side.
+  /// For C = c (r/δ)^p it is the mean of (cos α / cos θ)^(p+4) over these θ; for a constant kernel
+  ///   n/(2π) sin(2π/n) (2 + cos(2π/n))/3 = 1 - 4π²/(3n²) + O(n^-4).
+  /// Kernels that vanish at the horizon like (δ - r)^k are nearer to 1, by O(n^-2(k+1)).
+  /// Accuracy: relative 1e-14 for smooth profiles.
+  double second_moment_ratio(const physics::Kernel<2> &kernel, unsigned int n_sides);
+
+  /// Galerkin solutions with the polygon tend to those of its operator, whose local limit differs
+  /// in the second moments however many cells the horizon has, and whose limit at a fixed horizon
+  /// is that of another kernel.
+  /// @pre  the kernel is scalar
+  method::LimitProof limit_of_polygon(const problem::Problem<2> &problem, unsigned int n_sides);
+
+  /// Q1 on lattices with polygons of 8, 16 and 32 sides: Q1+polygon8, ... They show how the limit
+  /// goes wrong, `all` does not include them.
+  method::Methods polygonal_balls();
+} // namespace plumbline::reference
