@@ -15,7 +15,6 @@ namespace plumbline::reference
   {
     using geometry::Point;
 
-    /// Scalar kernels alone: the moments that decide the limit of bond tensors are of fourth order.
     class PolygonalBall : public method::Method, public method::AnotherOperator
     {
     public:
@@ -30,7 +29,7 @@ namespace plumbline::reference
       method::MethodFamily family() const override { return method::MethodFamily::reference; }
       std::string help() const override
       {
-        return without_polygon() + " on lattices, scalar kernels, the ball replaced by the " +
+        return without_polygon() + " on lattices, the ball replaced by the " +
                "inscribed regular polygon of " + std::to_string(n_sides_) +
                " sides (not asymptotically compatible)";
       }
@@ -46,15 +45,6 @@ namespace plumbline::reference
         using method::Capability;
         return {Capability::lattice, Capability::nonlocal, Capability::dynamic};
       }
-      std::string why_not(const problem::Problem<2> &problem) const override
-      {
-        if (problem.n_components == 1)
-          return "";
-        return "it is for scalar kernels (Kernel/limit = -1/2 Laplace or -Laplace), and this one "
-               "is a bond tensor; write a scalar kernel, or take " +
-               without_polygon();
-      }
-
       std::unique_ptr<method::Discretisation>
       discretise(const problem::Problem<2> &problem,
                  const base::Communicator & /*communicator*/) const override
@@ -90,10 +80,10 @@ namespace plumbline::reference
 
   double second_moment_ratio(const physics::Kernel<2> &kernel, unsigned int n_sides)
   {
-    // the sector of one side; by symmetry ∫ C ξ_1² is half of ∫ C r²
+    // the traces ∫ C_aa r², in the polygon as n times that of the sector of a side
     const geometry::Polygon polygon = inscribed_polygon(kernel.horizon(), n_sides);
     const std::array<Point<2>, 3> sector = {Point<2>(), polygon[0], polygon[1]};
-    double sum = 0;
+    double sum = 0, whole = 0;
     for (const physics::Kernel<2> &part : kernel.parts())
     {
       const geometry::CutRule rule =
@@ -101,7 +91,9 @@ namespace plumbline::reference
       for (std::size_t q = 0; q < rule.points.size(); ++q)
         sum += rule.weights[q] * part.radial(rule.points[q].norm()) * rule.points[q].norm_square();
     }
-    return n_sides * sum / 2 / kernel.moment({2, 0});
+    for (unsigned int a = 0; a < kernel.n_components(); ++a)
+      whole += kernel.moment({2, 0}, a, a) + kernel.moment({0, 2}, a, a);
+    return n_sides * sum / whole;
   }
 
   method::LimitProof limit_of_polygon(const problem::Problem<2> &problem, unsigned int n_sides)

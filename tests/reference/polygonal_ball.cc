@@ -3,6 +3,7 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
+#include "method/limit_proof.h"
 #include "reference/lattice/stencil.h"
 #include "reference/method.h"
 #include "scene/problem.h"
@@ -229,6 +230,35 @@ TEST(PolygonalBall, entries_are_those_of_a_rule_on_the_polygon_cut_by_the_lattic
     }
 }
 
+// T_abcd of Σ_k A_ab(k) k_c k_d against that of the kernel; all of them are off by the same factor
+TEST(PolygonalBall, moduli_of_bond_tensors_are_off_by_the_ratio_of_second_moments)
+{
+  const scene::Scene scene = scene_of("Q1", {{"Kernel/type", "bond-tensor"},
+                                             {"Kernel/limit", "Navier"},
+                                             {"Problem/solution", "x, y"},
+                                             {"Study/regime", "delta"}});
+  const problem::Problem<2> problem =
+      make_problem(scene, 0, scene.study.series.front().levels.front());
+  EXPECT_EQ(problem.kernel.n_components(), 2u);
+  for (const unsigned int n : {8u, 16u, 32u})
+  {
+    const auto stencil = stencil_of(problem.kernel, n);
+    const auto limit = method::prove_by_moments(problem, stencil, h * h);
+    EXPECT_NEAR(limit.defect, 1 - ratio_of_power(-1, n), 1e-13) << n;
+    EXPECT_NEAR(limit_of_polygon(problem, n).defect, limit.defect, 1e-13) << n;
+    const auto sum = [&](unsigned int a, unsigned int b, int c, int d)
+    {
+      double value = 0;
+      for (int k2 = -stencil.reach(); k2 <= stencil.reach(); ++k2)
+        for (int k1 = -stencil.reach(); k1 <= stencil.reach(); ++k1)
+          value += stencil(a, b, k1, k2) * std::pow(k1, c) * std::pow(k2, d);
+      return value;
+    };
+    EXPECT_NEAR(sum(0, 0, 2, 0) / sum(0, 0, 0, 2), 3, 1e-12); // isotropic: C1111 = 3 C1212
+    EXPECT_NEAR(sum(0, 1, 1, 1) / sum(0, 0, 0, 2), 1, 1e-12);
+  }
+}
+
 TEST(PolygonalBall, entries_tend_to_those_of_the_ball_as_sides_are_added)
 {
   const Kernel<2> kernel = kernel_called("constant", 2.5);
@@ -308,11 +338,14 @@ TEST(PolygonalBall, is_refused_where_it_is_not_implemented)
       more.insert(more.end(), parabola.begin(), parabola.end());
     return refusal("Q1+polygon8", more);
   };
-  says(with({{"Kernel/type", "bond-tensor"},
+  says(with({{"Kernel/type", "1/r"},
              {"Kernel/limit", "Navier"},
+             {"Material/model", "LPS"},
+             {"Material/E", "1"},
+             {"Material/nu", "0.3"},
              {"Problem/solution", "x, y"}}),
-       {"Methods/names: 'Q1+polygon8'", "scalar kernels (Kernel/limit = -1/2 Laplace or -Laplace)",
-        "bond tensor", "take Q1"});
+       {"Methods/names: 'Q1+polygon8'", "Material/model = LPS", "take Q1",
+        "write Material/model = bond-based"});
   says(with({{"Domain/mesh", "squares"}}), {"Methods/names: 'Q1+polygon8'", "Domain/mesh", "Q1"});
   says(with({{"Domain/dimension", "3"},
              {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
