@@ -383,7 +383,7 @@ namespace plumbline::app
       command.add_option("FILE", options->files,
                          "Values of your code at the certified points: CSV with x,y,u of a scalar, "
                          "x,y,u,v or x,y,u1,u2 of a vector, in three dimensions x,y,z and u or "
-                         "u1,u2,u3; a file for each grid");
+                         "u1,u2,u3, in one dimension x,u; a file for each grid");
       command
           .add_option("--problem", options->problem,
                       "A problem of the certified set, e.g. NLB-07 ('plumbline list problems'), or "

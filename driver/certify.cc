@@ -12,6 +12,7 @@
 #include "io/output_folder.h"
 #include "io/point_values.h"
 #include "report/certificate_text.h"
+#include "scene/on_line.h"
 #include "study/preflight.h"
 
 #include <iostream>
@@ -69,7 +70,10 @@ namespace plumbline::driver
     std::optional<base::ProgressLine> progress(!is_quiet);
     progress->show("certify", 0);
     Certificate certificate =
-        scene.domain.is_in_space()
+        is_on_intervals(scene)
+            ? study::certify(scene, *ways.galerkin, ways.rules, ways.level,
+                             [&](const problem::Problem<1> &one) { return points.of(one); })
+        : scene.domain.is_in_space()
             ? study::certify(scene, *ways.galerkin, ways.rules, ways.level,
                              [&](const problem::Problem<3> &one) { return points.of(one); })
             : study::certify(scene, *ways.galerkin, ways.rules, ways.level,

@@ -61,6 +61,8 @@ namespace plumbline::driver
         { return points.of(problem); };
         options.points_in_space = [&points](const problem::Problem<3> &problem)
         { return points.of(problem); };
+        options.points_on_line = [&points](const problem::Problem<1> &problem)
+        { return points.of(problem); };
         options.on_values = [communicator, folder, &points](const study::ValuesAtPoints &found,
                                                             const study::Record &run) {
           base::on_first_rank(communicator, [&] { points.write(found, run, folder / "points"); });

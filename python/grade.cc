@@ -17,14 +17,18 @@ namespace plumbline::python
   namespace
   {
     /// The number of each point in the certificate.
+    /// @param points  shape (n_points, dim), in one dimension (n_points) as well
     std::vector<std::size_t> numbers_of(const Doubles &points, const Certificate &certificate)
     {
       const study::CertifiedPlaces places(certificate);
       const std::size_t n = certificate.points.size(), dim = certificate.points.front().x.size();
-      if (points.ndim() != 2 || static_cast<std::size_t>(points.shape(1)) != dim)
+      const std::size_t n_columns = points.ndim() == 1   ? 1
+                                    : points.ndim() == 2 ? static_cast<std::size_t>(points.shape(1))
+                                                         : 0;
+      if (n_columns != dim)
         throw InputError("points has the shape " + shape_text(points) + "; give " +
-                         std::to_string(dim) + " coordinates for each of " + std::to_string(n) +
-                         " points");
+                         std::to_string(dim) + (dim == 1 ? " coordinate" : " coordinates") +
+                         " for each of " + std::to_string(n) + " points");
       const auto n_given = static_cast<std::size_t>(points.shape(0));
       std::vector<std::size_t> numbers;
       for (std::size_t k = 0; k < n_given; ++k)

@@ -32,6 +32,10 @@ def is_in_space(values):
     return values.get("Domain/dimension") == "3"
 
 
+def is_on_line(values):
+    return values.get("Domain/dimension") == "1"
+
+
 def mapped(values, point):
     """A corner of a box, where a map of the mesh takes it."""
     if "Domain/map" not in values:
@@ -44,9 +48,13 @@ def grid(values, certificate):
     """Places of a picture in the domain, the step between them; in space those of a plane z = const."""
     domain, holes = ([[mapped(values, corner) for corner in box] for box in boxes(text)]
                      for text in (values.get("Domain/boxes", "0, 0 : 1, 1"), values.get("Domain/holes", "")))
-    dim = 3 if is_in_space(values) else 2
+    dim = 3 if is_in_space(values) else 1 if is_on_line(values) else 2
     lower = [min(box[0][i] for box in domain) for i in range(dim)]
     upper = [max(box[1][i] for box in domain) for i in range(dim)]
+    if dim == 1:
+        step = (upper[0] - lower[0]) / (8 * N)
+        middles = [lower[0] + (i + .5) * step for i in range(8 * N)]
+        return [(x,) for x in middles if any(box[0][0] < x < box[1][0] for box in domain)], step, 0
     step = max(upper[i] - lower[i] for i in (0, 1)) / N
     heights = sorted({point["x"][2] for point in certificate["points"]}) if dim == 3 else [0]
     height = heights[len(heights) // 2]
@@ -86,8 +94,36 @@ def field(name, values, certificate, work, program):
                                   for row in rows]
 
 
+def curve(certificate, places, step, u):
+    """u over x, a piece for each interval, with the certified points."""
+    lower, upper = places[0][0] - step / 2, places[-1][0] + step / 2
+    low, high = min([0, *u]), max(u)
+    scale = .5 * (upper - lower) / (high - low)
+
+    def at(x, value):
+        return x, (value - low) * scale
+    drawing = Drawing((lower, 0), (upper + .3 * (upper - lower), .5 * (upper - lower)))
+    drawing.line([at(lower, 0), at(upper, 0)], 'stroke="#7a8ca0" stroke-width="0.8"')
+    pieces = [[]]
+    for (x,), value in zip(places, u):
+        if pieces[-1] and x - pieces[-1][-1][0] > 1.5 * step:
+            pieces.append([])
+        pieces[-1].append(at(x, value))
+    for piece in pieces:
+        drawing.line(piece, f'stroke="{colour(.25)}" stroke-width="1.6"')
+    drawing.dots([at(point["x"][0], point["value"][0]) for point in certificate["points"]],
+                 'stroke="#000000" stroke-width="4"')
+    for value in (0, high):
+        x, y = at(upper + .03 * (upper - lower), value)
+        drawing.parts.append(f'<text x="{drawing.x(x)}" y="{drawing.y(y - .04 * (upper - lower) * (value > 0))}" '
+                             f'font-size="11" font-family="sans-serif">u = {value:.3g}</text>')
+    return drawing.text(), f"u for x from {lower:g} to {upper:g}; dots: certified points"
+
+
 def picture(name, values, certificate, work, program):
     places, step, height, u = field(name, values, certificate, work, program)
+    if is_on_line(values):
+        return curve(certificate, places, step, u)
     low, high = min(u), max(u)
     lower = [min(p[i] for p in places) - step / 2 for i in (0, 1)]
     upper = [max(p[i] for p in places) + step / 2 for i in (0, 1)]

@@ -82,9 +82,9 @@ namespace plumbline::io
       {
         const study::CertifiedValue &one = certificate.points[i];
         const std::string place = "points[" + std::to_string(i) + "]";
-        require((one.x.size() == 2 || one.x.size() == 3) &&
+        require(!one.x.empty() && one.x.size() <= 3 &&
                     one.x.size() == certificate.points.front().x.size(),
-                place + ".x is not two or three numbers, as many as at the other points");
+                place + ".x is not one to three numbers, as many as at the other points");
         require(one.value.size() == certificate.n_components &&
                     one.other.size() == certificate.n_components,
                 place + " has not n_components values");

@@ -27,8 +27,9 @@ namespace plumbline::io
 
     std::vector<std::string> axes_of(const Certificate &certificate)
     {
-      return certificate.points.front().x.size() == 3 ? std::vector<std::string>{"x", "y", "z"}
-                                                      : std::vector<std::string>{"x", "y"};
+      std::vector<std::string> axes = {"x", "y", "z"};
+      axes.resize(certificate.points.front().x.size());
+      return axes;
     }
 
     /// The columns of u in a file.

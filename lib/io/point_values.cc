@@ -6,6 +6,7 @@
 #include "geometry/tetrahedral_domain.h"
 #include "problem/inside.h"
 #include "scene/mesh_in_space.h"
+#include "scene/on_line.h"
 #include "scene/problem.h"
 
 #include <algorithm>
@@ -28,10 +29,16 @@ namespace plumbline::io
       return name + (n_components == 1 ? "" : std::to_string(component + 1));
     }
 
+    /// "x", "x,y" or "x,y,z".
+    std::string axes_text(std::size_t dimension)
+    {
+      return std::string("x,y,z").substr(0, 2 * dimension - 1);
+    }
+
     void write_header(std::ostream &out, std::size_t dimension, unsigned int n_components,
                       bool has_exact, bool has_change, bool has_estimate, bool has_gradient)
     {
-      out << (dimension == 3 ? "x,y,z" : "x,y");
+      out << axes_text(dimension);
       const auto name = [&](const std::string &one)
       {
         for (unsigned int c = 0; c < n_components; ++c)
@@ -78,7 +85,7 @@ namespace plumbline::io
     key_ = "Output/points = " + scene.output.points + ": ";
     try
     {
-      read(scene.domain.is_in_space());
+      read(scene.domain.is_in_space() ? 3 : is_on_intervals(scene) ? 1 : 2);
     }
     catch (const InputError &error)
     {
@@ -95,15 +102,19 @@ namespace plumbline::io
     else if (scene.domain.is_in_space())
       (void)in_solid([cubes = scene.domain.cubes(first.h)](const Point<3> &x)
                      { return cubes.cell_at(x).has_value(); });
+    else if (is_on_intervals(scene))
+      (void)of(make_problem_on_line(scene, 0, first));
     else
       (void)of(scene::make_problem(scene, 0, first));
   }
 
-  void PointValues::read(bool is_in_space)
+  void PointValues::read(std::size_t dimension)
   {
-    std::vector<std::string> axes = {"x", "y"};
-    if (is_in_space)
-      axes.push_back("z");
+    const std::vector<std::string> all = {"x", "y", "z"},
+                                   axes(all.begin(),
+                                        all.begin() + static_cast<std::ptrdiff_t>(dimension)),
+                                   others(all.begin() + static_cast<std::ptrdiff_t>(dimension),
+                                          all.end());
     base::Csv csv(file_, axes);
     while (csv.next())
     {
@@ -111,15 +122,29 @@ namespace plumbline::io
       for (const std::string &axis : axes)
         points_.back().push_back(csv.number(axis));
       lines_.push_back(csv.line());
-      if (!is_in_space && csv.has("z") && csv.number("z") != 0)
-        throw InputError("'" + file_ + "', line " + std::to_string(csv.line()) +
-                         ": z = " + base::to_text(csv.number("z"), 6) +
-                         ", but the scene has two dimensions; take out the column z, or write "
-                         "Domain/dimension = 3");
+      for (const std::string &axis : others)
+        if (csv.has(axis) && csv.number(axis) != 0)
+          throw InputError("'" + file_ + "', line " + std::to_string(csv.line()) + ": " + axis +
+                           " = " + base::to_text(csv.number(axis), 6) + ", but the scene has " +
+                           (dimension == 1 ? "one dimension" : "two dimensions") +
+                           "; take out the column " + axis +
+                           ", or write Domain/dimension = " + (axis == "y" ? "2" : "3"));
     }
     if (points_.empty())
-      throw InputError("'" + file_ + "' has no points; give one " +
-                       (axes.size() == 3 ? "x,y,z" : "x,y") + " on each line");
+      throw InputError("'" + file_ + "' has no points; give one " + axes_text(dimension) +
+                       " on each line");
+  }
+
+  std::vector<Point<1>> PointValues::of(const problem::Problem<1> &problem) const
+  {
+    std::vector<Point<1>> points;
+    for (const auto &x : points_)
+    {
+      points.emplace_back(x[0]);
+      if (!problem.lattice.cell_at(x[0]))
+        refuse(points.size() - 1);
+    }
+    return points;
   }
 
   std::vector<Point<2>> PointValues::of(const problem::Problem<2> &problem) const

@@ -2,6 +2,7 @@
 
 #include "analysis/record.h"
 #include "problem/in_space.h"
+#include "problem/on_line.h"
 #include "problem/problem.h"
 #include "scene/scene.h"
 #include "study/study_results.h"
@@ -30,6 +31,7 @@ namespace plumbline::io
 
     /// In the problem's coordinates.
     /// @throws InputError  a point outside of its domain, by its line
+    std::vector<dealii::Point<1>> of(const problem::Problem<1> &problem) const;
     std::vector<dealii::Point<2>> of(const problem::Problem<2> &problem) const;
     std::vector<dealii::Point<3>> of(const problem::Problem<3> &problem) const;
 
@@ -50,12 +52,12 @@ namespace plumbline::io
     std::vector<dealii::Point<3>>
     in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
-    void read(bool is_in_space);
+    void read(std::size_t dimension);
     /// u in such a file, shape (n_points, n_components); empty if it has other points.
     std::vector<double> values_in(const std::filesystem::path &file) const;
 
     std::string file_, key_;                  ///< key_: "Output/points = FILE: ", for messages
-    std::vector<std::vector<double>> points_; ///< in the scene's coordinates, two or three of each
+    std::vector<std::vector<double>> points_; ///< in the scene's coordinates, one to three of each
     std::vector<std::size_t> lines_;
     /// By case, series and method, and by level: u, shape (n_points, n_components).
     std::map<std::string, std::map<unsigned int, std::vector<double>>> levels_;

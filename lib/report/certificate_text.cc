@@ -39,9 +39,9 @@ namespace plumbline::report
     {
       const auto name = [&](const std::string &word, unsigned int c)
       { return word + (certificate.n_components == 1 ? "" : std::to_string(c + 1)); };
-      std::vector<Column> columns = {"x", "y"};
-      if (certificate.points.front().x.size() == 3)
-        columns.emplace_back("z");
+      std::vector<Column> columns;
+      for (std::size_t d = 0; d < certificate.points.front().x.size(); ++d)
+        columns.emplace_back(std::string(1, "xyz"[d]));
       for (unsigned int c = 0; c < certificate.n_components; ++c)
         columns.emplace_back(name("u", c));
       columns.emplace_back("bound");

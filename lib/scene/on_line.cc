@@ -72,7 +72,6 @@ namespace plumbline::scene
       needs(!scene.solver.is_full_model, "Solver/model = full", "write smallest");
       needs(scene.problem.local_solution != LocalSolution::computed,
             "Problem/local solution = computed", "write none, or an expression");
-      needs(scene.output.points.empty(), "Output/points", "clear it");
       needs(scene.study.decisive_error.target != Target::finest,
             "Study/decisive error against own finest level", "write exact, local or reference");
       const auto is_of_equations = [](Norm norm)

@@ -2,8 +2,10 @@
 
 #include "base/choice.h"
 #include "base/error.h"
+#include "scene/on_line.h"
 #include "study/comparison.h"
 #include "study/estimate_in_space.h"
+#include "study/estimate_on_line.h"
 #include "study/grade.h"
 #include "study/grid_convergence.h"
 #include "study/nodal_fit.h"
@@ -29,10 +31,22 @@ namespace plumbline::study
     constexpr double safety = 2; ///< of extrapolation from coarser levels, see estimate_error()
     constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-    /// In space there is nothing but the problem.
-    struct CaseInSpace
+    /// In space and on a line there is nothing but the problem.
+    template <int dim>
+    struct BareCase
     {
-      problem::Problem<3> problem;
+      problem::Problem<dim> problem;
+    };
+
+    /// A solution on intervals with the members that others have.
+    struct SolvedOnLine : SolutionOnLine
+    {
+      std::vector<Point<1>> nodes; ///< in place of their coordinates
+
+      double value(const Point<1> &x, unsigned int /*component*/) const
+      {
+        return SolutionOnLine::value(x[0]);
+      }
     };
 
     template <int dim>
@@ -40,8 +54,24 @@ namespace plumbline::study
     {
       if constexpr (dim == 2)
         return make_case(scene, 0, level);
+      else if constexpr (dim == 1)
+        return BareCase<1>{make_problem_on_line(scene, 0, level)};
       else
-        return CaseInSpace{make_problem_in_space(scene, 0, level)};
+        return BareCase<3>{make_problem_in_space(scene, 0, level)};
+    }
+
+    template <int dim>
+    auto solve(const method::Method &method, const problem::Problem<dim> &problem)
+    {
+      return analysis::solve(method, problem);
+    }
+
+    SolvedOnLine solve(const method::Method &method, const problem::Problem<1> &problem)
+    {
+      SolvedOnLine solved{solve_on_line(method, problem), {}};
+      for (const double x : solved.SolutionOnLine::nodes)
+        solved.nodes.emplace_back(x);
+      return solved;
     }
 
     ErrorEstimate estimate_of(const scene::Case &one, const method::Method &method,
@@ -50,8 +80,14 @@ namespace plumbline::study
       return estimate_error(one, method, solution, false, points);
     }
 
+    ErrorEstimate estimate_of(const BareCase<1> &one, const method::Method &method,
+                              const SolvedOnLine &solution, const Points<1> &points)
+    {
+      return estimate_on_line(method, one.problem, solution, points);
+    }
+
     /// Of its field no rate is known.
-    ErrorEstimate estimate_of(const CaseInSpace &one, const method::Method &method,
+    ErrorEstimate estimate_of(const BareCase<3> &one, const method::Method &method,
                               const analysis::SolutionInSpace &solution, const Points<3> &points)
     {
       ErrorEstimate estimate =
@@ -66,6 +102,10 @@ namespace plumbline::study
       return std::isnan(a) || a > b ? a : b;
     }
 
+    double spacing(const problem::Problem<1> &problem)
+    {
+      return problem.h();
+    }
     double spacing(const problem::Problem<2> &problem)
     {
       return problem.h;
@@ -75,6 +115,10 @@ namespace plumbline::study
       return problem.h();
     }
 
+    double measure(const problem::Problem<1> &problem, std::size_t /*cell*/)
+    {
+      return problem.h();
+    }
     double measure(const problem::Problem<2> &problem, std::size_t cell)
     {
       return cell_area(problem, cell);
@@ -89,6 +133,10 @@ namespace plumbline::study
     {
       const dealii::Tensor<1, 2> of_scene = x + (problem.origin - Point<2>());
       return {of_scene[0], of_scene[1]};
+    }
+    std::vector<double> coordinates(const problem::Problem<1> & /*problem*/, const Point<1> &x)
+    {
+      return {x[0]};
     }
     std::vector<double> coordinates(const problem::Problem<3> & /*problem*/, const Point<3> &x)
     {
@@ -162,7 +210,7 @@ namespace plumbline::study
     Found by_galerkin(const Case &one, const method::Method &method, const Points<dim> &points)
     {
       const problem::Problem<dim> &problem = one.problem;
-      const auto solution = analysis::solve(method, problem);
+      const auto solution = solve(method, problem);
       const ErrorEstimate estimate = estimate_of(one, method, solution, points);
       Found found{{method.name(), {spacing(problem)}, estimate.field_rate},
                   values_of<dim>(solution, points, problem.n_components),
@@ -222,7 +270,7 @@ namespace plumbline::study
         const Points<dim> places = points(problem);
         for (std::size_t k = 0; k < rules.size(); ++k)
         {
-          const auto solution = analysis::solve(*rules[k], problem);
+          const auto solution = solve(*rules[k], problem);
           std::vector<double> values =
               values_by_fit(places, solution.nodes, solution.nodal, problem.n_components);
           found[k].error = largest_error<dim>(problem, places, values);
@@ -410,6 +458,13 @@ namespace plumbline::study
     return certify_in<3>(scene, galerkin, rules, galerkin_level, points);
   }
 
+  Certificate certify(const scene::Scene &scene, const method::Method &galerkin,
+                      const method::Methods &rules, std::size_t galerkin_level,
+                      const PointsOf<1> &points)
+  {
+    return certify_in<1>(scene, galerkin, rules, galerkin_level, points);
+  }
+
   void check_certifiable(const scene::Scene &scene)
   {
     const auto refuse = [&](const std::string &what)
@@ -420,8 +475,8 @@ namespace plumbline::study
       refuse("Problem/solution and load pose " + std::to_string(cases.size()) +
              " cases; a certificate is of one: leave one in");
     if (scene.output.points.empty())
-      refuse("Output/points is empty; name a CSV file with the columns x,y (in three dimensions "
-             "x,y,z), at whose points the solution is to be certified");
+      refuse("Output/points is empty; name a CSV file with the columns x,y (in one dimension x, in "
+             "three x,y,z), at whose points the solution is to be certified");
     if (!scene.reference.method)
       refuse("Reference/method = none; name the Galerkin method whose values are certified, "
              "e.g. Q2 on a lattice or P2 on triangles");

@@ -27,7 +27,7 @@ namespace plumbline::study
 
   struct CertifiedValue
   {
-    std::vector<double> x;     ///< two or three coordinates [length]; of the mean over Ω none
+    std::vector<double> x;     ///< one to three coordinates [length]; of the mean over Ω none
     std::vector<double> value; ///< of each component, by the Galerkin method
     double bound = 0;          ///< of the error of any component; NaN: there is none
     std::vector<double> other; ///< by the meshfree rule
@@ -102,6 +102,12 @@ namespace plumbline::study
   certify(const scene::Scene &scene, const method::Method &galerkin, const method::Methods &rules,
           std::size_t galerkin_level,
           const std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> &points);
+
+  /// On intervals, see estimate_on_line(). Method and rules are MethodOnIntervals.
+  Certificate
+  certify(const scene::Scene &scene, const method::Method &galerkin, const method::Methods &rules,
+          std::size_t galerkin_level,
+          const std::function<std::vector<dealii::Point<1>>(const problem::Problem<1> &)> &points);
 
   /// @throws InputError  no static problem in one case; not Study/regime = m with at
   /// least three levels; Reference/method or Reference/estimate missing; cracks

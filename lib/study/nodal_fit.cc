@@ -19,10 +19,12 @@ namespace plumbline::study
 
     /// Of a cubic.
     template <int dim>
-    constexpr unsigned int n_terms = dim == 2 ? 10 : 20;
+    constexpr unsigned int n_terms = dim == 1   ? 4
+                                     : dim == 2 ? 10
+                                                : 20;
 
-    /// Nodes of a fit: three for each coefficient, so that a lattice has five of them in each
-    /// direction and a corner four.
+    /// Nodes of a fit: three for each coefficient, so that a lattice of the plane or of space has
+    /// five of them in each direction and a corner four.
     template <int dim>
     constexpr std::size_t most_nodes = 3 * n_terms<dim>;
 
@@ -49,12 +51,13 @@ namespace plumbline::study
     template <int dim>
     std::vector<double> monomials(const dealii::Tensor<1, dim> &x)
     {
-      constexpr unsigned int last = dim == 2 ? 0 : degree;
+      constexpr unsigned int second = dim == 1 ? 0 : degree, last = dim < 3 ? 0 : degree;
       std::vector<double> values;
       for (unsigned int i = 0; i <= degree; ++i)
-        for (unsigned int j = 0; i + j <= degree; ++j)
+        for (unsigned int j = 0; j <= second && i + j <= degree; ++j)
           for (unsigned int k = 0; k <= last && i + j + k <= degree; ++k)
-            values.push_back(std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[dim - 1], k));
+            values.push_back(std::pow(x[0], i) * std::pow(x[dim == 1 ? 0 : 1], j) *
+                             std::pow(x[dim - 1], k));
       return values;
     }
 
@@ -107,6 +110,13 @@ namespace plumbline::study
       return values;
     }
   } // namespace
+
+  std::vector<double> values_by_fit(const std::vector<Point<1>> &points,
+                                    const std::vector<Point<1>> &nodes,
+                                    const std::vector<double> &nodal, unsigned int n_components)
+  {
+    return fit(points, nodes, nodal, n_components);
+  }
 
   std::vector<double> values_by_fit(const std::vector<Point<2>> &points,
                                     const std::vector<Point<2>> &nodes,

@@ -15,6 +15,9 @@ namespace plumbline::study
   ///               needs
   /// Accuracy: exact for cubics; for nodes of spacing h, O(h^4) for smooth fields and O(h^k) where
   /// a derivative of order k jumps. Not for fields that jump between nodes, as across cracks.
+  std::vector<double> values_by_fit(const std::vector<dealii::Point<1>> &points,
+                                    const std::vector<dealii::Point<1>> &nodes,
+                                    const std::vector<double> &nodal, unsigned int n_components);
   std::vector<double> values_by_fit(const std::vector<dealii::Point<2>> &points,
                                     const std::vector<dealii::Point<2>> &nodes,
                                     const std::vector<double> &nodal, unsigned int n_components);

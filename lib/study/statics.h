@@ -20,6 +20,7 @@ namespace plumbline::study
     /// Where solutions are wanted, in the problem's coordinates; empty: nowhere.
     std::function<std::vector<dealii::Point<2>>(const problem::Problem<2> &)> points = {};
     std::function<std::vector<dealii::Point<3>>(const problem::Problem<3> &)> points_in_space = {};
+    std::function<std::vector<dealii::Point<1>>(const problem::Problem<1> &)> points_on_line = {};
     /// Receives the values there for every solution, with estimates of the error for Galerkin
     /// methods; those of the reference with a record of reference_record().
     std::function<void(const ValuesAtPoints &, const Record &)> on_values = {};

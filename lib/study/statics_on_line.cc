@@ -7,6 +7,7 @@
 #include "scene/on_line.h"
 #include "study/compared_case.h"
 #include "study/comparison.h"
+#include "study/estimate_on_line.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
@@ -31,6 +32,18 @@ namespace plumbline::study
       return dynamic_cast<const MethodOnIntervals *>(&method);
     }
 
+    /// As values_at() takes solutions. A method's own derivative is not asked for on a line.
+    struct FieldAtPoints
+    {
+      const method::FieldOnLine &field;
+      std::function<dealii::Tensor<1, 1>(const dealii::Point<1> &, unsigned int)> gradient = {};
+
+      double value(const dealii::Point<1> &x, unsigned int /*component*/) const
+      {
+        return field.value(x[0]);
+      }
+    };
+
     /// Averages of a field over the cells of Ω: exact for polynomials of degree 15.
     std::vector<double> cell_averages(const problem::Field<1> &field, const ProblemOnLine &problem)
     {
@@ -50,67 +63,13 @@ namespace plumbline::study
       return result;
     }
 
-    std::vector<double> values_at(const problem::Field<1> &field, const std::vector<double> &nodes)
+    std::vector<double> nodal_values(const problem::Field<1> &field,
+                                     const std::vector<double> &nodes)
     {
       std::vector<double> values;
       for (const double x : nodes)
         values.push_back(field.value(dealii::Point<1>(x), 0));
       return values;
-    }
-
-    /// √(h Σ |a - b|²); b empty: 0.
-    double averages_l2(double h, const std::vector<double> &a, const std::vector<double> &b = {})
-    {
-      double squares = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        squares += std::pow(a[i] - (b.empty() ? 0 : b[i]), 2);
-      return std::sqrt(h * squares);
-    }
-
-    /// Averages over cells that are each made of two.
-    std::vector<double> of_pairs(const std::vector<double> &fine)
-    {
-      std::vector<double> result;
-      for (std::size_t i = 0; i + 1 < fine.size(); i += 2)
-        result.push_back((fine[i] + fine[i + 1]) / 2);
-      return result;
-    }
-
-    bool has_doubled(const ProblemOnLine &problem)
-    {
-      if (2 * problem.h() > problem.horizon() * (1 + 1e-9))
-        return false;
-      try
-      {
-        return at_spacing(problem, 2 * problem.h()).lattice.size() > 1;
-      }
-      catch (const InputError &) // ends that are no multiples of 2 h apart
-      {
-        return false;
-      }
-    }
-
-    /// How far the averages of a Galerkin solution may be wrong, by the changes to h/2 and from 2
-    /// h, as estimate_error() has them in the plane.
-    ErrorEstimate estimate_on_line(const Method &method, const ProblemOnLine &problem,
-                                   const SolutionOnLine &solution)
-    {
-      ErrorEstimate estimate;
-      estimate.method = method.name();
-      estimate.h = problem.h();
-      estimate.horizon = problem.horizon();
-      estimate.h_change = averages_l2(
-          problem.h(), solution.averages,
-          of_pairs(solve_on_line(method, at_spacing(problem, problem.h() / 2)).averages));
-      if (has_doubled(problem))
-        estimate.coarse_change = averages_l2(
-            2 * problem.h(), solve_on_line(method, at_spacing(problem, 2 * problem.h())).averages,
-            of_pairs(solution.averages));
-      const double q = contraction(estimate.coarse_change, estimate.h_change,
-                                   std::pow(.5, method.order())),
-                   size = averages_l2(problem.h(), solution.averages);
-      conclude_from_changes(estimate, q, size, problem.settings.solver.tolerance);
-      return estimate;
     }
 
     /// Cells of a block: a curve has at most 256 points.
@@ -189,12 +148,24 @@ namespace plumbline::study
       {
         const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
         const SolutionOnLine solution = solve_on_line(*method, one.problem);
+        const auto points = points_of(one.problem);
+        const auto tell = [&](std::vector<double> errors)
+        {
+          if (!points.empty())
+            options_.on_values(
+                values_at(points, one.problem, FieldAtPoints{solution}, std::move(errors)),
+                reference_record(place_, *method, one.name));
+        };
         if (scene_.reference.estimate == scene::Estimate::none)
+        {
+          tell({});
           return solution.averages;
+        }
         const ErrorEstimate estimate =
-            placed(estimate_on_line(*method, one.problem, solution), place_, one.name);
+            placed(estimate_on_line(*method, one.problem, solution, points), place_, one.name);
+        tell(estimate.at_points);
         place_.results().references.push_back(estimate);
-        const double size = averages_l2(one.problem.h(), solution.averages);
+        const double size = averages_l2(one.problem, solution.averages);
         check_tolerance(scene_.reference, estimate, size, "a smaller h, or a larger tolerance");
         return solution.averages;
       }
@@ -213,16 +184,34 @@ namespace plumbline::study
             { set_errors(run, Quantity::averages, target, solution.averages, averages); });
         if (problem.solution)
           set_errors(run, Quantity::nodal, Target::exact, solution.nodal,
-                     values_at(*problem.solution, solution.nodes));
+                     nodal_values(*problem.solution, solution.nodes));
         if (problem.local_solution)
           set_errors(run, Quantity::nodal, Target::local, solution.nodal,
-                     values_at(*problem.local_solution, solution.nodes));
-        if (!place_.is_finest())
-          return;
-        if (is_estimated(scene_, method))
-          place_.results().estimates.push_back(
-              placed(estimate_on_line(method, problem, solution), place_, one.name));
-        finish_series(one, solution, run);
+                     nodal_values(*problem.local_solution, solution.nodes));
+        const auto points = points_of(problem);
+        const bool is_shown = place_.is_finest() && is_estimated(scene_, method),
+                   is_at_points = !points.empty() &&
+                                  method.family() == method::MethodFamily::reference &&
+                                  scene_.reference.estimate != scene::Estimate::none;
+        std::vector<double> errors;
+        if (is_shown || is_at_points)
+        {
+          const ErrorEstimate found = estimate_on_line(method, problem, solution, points);
+          errors = found.at_points;
+          if (is_shown)
+            place_.results().estimates.push_back(placed(found, place_, one.name));
+        }
+        if (!points.empty())
+          options_.on_values(values_at(points, problem, FieldAtPoints{solution}, std::move(errors)),
+                             run);
+        if (place_.is_finest())
+          finish_series(one, solution, run);
+      }
+
+      std::vector<dealii::Point<1>> points_of(const ProblemOnLine &problem) const
+      {
+        return options_.points_on_line ? options_.points_on_line(problem)
+                                       : std::vector<dealii::Point<1>>{};
       }
 
       /// What is done with a solution of the finest level: stored, and drawn for the first series.
@@ -269,7 +258,8 @@ namespace plumbline::study
   {
     const base::MemoryGauge memory;
     base::CpuTimer timer;
-    const auto discretisation = on_intervals(method)->discretise_on_intervals(problem);
+    const std::shared_ptr<const method::IntervalDiscretisation> discretisation =
+        on_intervals(method)->discretise_on_intervals(problem);
     const auto system = discretisation->tangent();
     SolutionOnLine solution;
     solution.cost.setup_seconds = timer.seconds();
@@ -285,7 +275,8 @@ namespace plumbline::study
     solution.cost.n_iterations = solved.n_iterations;
     solution.cost.peak_bytes = memory.peak_bytes();
     static_cast<method::FieldOnLine &>(solution) = data.field(u);
-    solution.value = {}; // it needs the discretisation
+    solution.value = [discretisation, value = std::move(solution.value)](double x)
+    { return value(x); };
     solution.diagnostics = discretisation->diagnostics();
     solution.diagnostics.relative_residual = solved.relative_residual;
     solution.diagnostics.operator_backend = solved.backend;

@@ -15,7 +15,7 @@ def certified_problem(problem):
     """A certified problem, by its name ("NLB-07", in any case) or the file of its certificate.
 
     Returns a dict: "name", "purpose", "horizon", "scene" (text of the scene), "points", shape
-    (n, 2) or in three dimensions (n, 3), "values" there, shape (n,) or for vectors (n,
+    (n, 2), in three dimensions (n, 3), in one (n, 1), "values" there, shape (n,) or for vectors (n,
     n_components), "bounds", shape (n,), "digits" (the minimum over all points).
     """
     found = _core.certified_problem(os.fspath(problem))
@@ -33,9 +33,9 @@ def grade(points, values=None, problem=None, *, h=()):
     grade(["a.csv", "b.csv"], problem="NLB-07", h=[.1, .05])
     grade(points, values, "NLB-07")               arrays
 
-    points   those of the certificate in any order, shape (n, 2), in three dimensions (n, 3); or
-             the name of a CSV file with their coordinates and values (x,y,u; for vectors x,y,u,v or
-             x,y,u1,u2), or a list of such files, one for each grid
+    points   those of the certificate in any order, shape (n, 2), in three dimensions (n, 3),
+             in one (n, 1) or (n,); or the name of a CSV file with their coordinates and values
+             (x,y,u; for vectors x,y,u,v or x,y,u1,u2), or a list of such files, one for each grid
     values   u there, an array of shape (n,) or (n, n_components) for vectors; or, if h is given, a
              list of such arrays, one for each grid from coarse to fine
     problem  name of a certified problem, see certified_problems(), or of a file certificate.json

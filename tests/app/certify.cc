@@ -125,6 +125,41 @@ TEST(Certify, refuses_with_3_where_the_ways_disagree_and_writes_nothing)
   expect_disagreement("GFD", "Q2 and GFD disagree about ");
 }
 
+TEST(Certify, works_in_one_dimension)
+{
+  const std::string points_of_line = write("line.csv", "x\n0.1\n0.32\n0.77\n"),
+                    scene = "certify " + scene_with() +
+                            " --set Domain/dimension=1 --set 'Domain/boxes=0 : 1' --set "
+                            "'Problem/solution=sin(3*x)' --set Output/points=";
+  const fs::path folder = temporary("certificate_of_line");
+  const Outcome outcome = run(scene + points_of_line + " -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "\n3 values certified to at least ");
+  const nlohmann::json certificate = read_json(folder / "certificate.json");
+  EXPECT_EQ(certificate["points"][1]["x"], (std::vector<double>{.32}));
+  expect_found(read(folder / "certificate.csv"), "x,u,bound,other,other_bound,difference,digits");
+  std::ostringstream text;
+  text.precision(17);
+  text << "x,u\n";
+  for (const auto &one : certificate["points"])
+    text << one["x"][0].get<double>() << ',' << std::sin(3 * one["x"][0].get<double>()) << '\n';
+  const std::string of_line = " --problem " + (folder / "certificate.json").string();
+  const Outcome grade =
+      run("grade " + write("on_line.csv", text.str()) + of_line + " --require digits=4");
+  EXPECT_EQ(grade.exit_code, 0) << grade.err;
+  expect_found(grade.out, "\nat least ");
+  expect_no_grade("grade " + write("off_line.csv", "x,u\n0.1,1\n0.3,1\n0.77,1\n") + of_line,
+                  "line 3: (0.3) is not a point of the certificate");
+  EXPECT_EQ(run("grade --points" + of_line).out, "x\n0.1\n0.32\n0.77\n");
+  expect_refused(scene + write("outside.csv", "x\n0.1\n1.2\n"),
+                 "line 3: (1.2) lies outside of the domain");
+  expect_refused(scene + write("of_plane.csv", "x,y\n0.1,0.2\n"),
+                 "y = 0.2, but the scene has one dimension; take out the column y");
+  expect_refused(scene + points_of_line + " --set Methods/names=OPT",
+                 "not integrable in one dimension");
+  fs::remove_all(folder);
+}
+
 TEST(Certify, refuses_a_certificate_of_no_digits)
 {
   const fs::path folder = temporary("no_digits");

@@ -100,6 +100,35 @@ TEST(Points, have_values_of_the_reference)
   fs::remove_all(folder);
 }
 
+TEST(Points, have_values_on_a_line)
+{
+  const std::string file = write("on_line.csv", "x\n0.31\n0.5\n1\n");
+  const fs::path folder = temporary("points_on_line");
+  const Outcome outcome =
+      run("run --quiet " + scene_at(file) +
+          " --set Domain/dimension=1 --set 'Domain/boxes=0 : 1' --set Problem/solution=x^2 -o " +
+          folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const std::string method : {"FA", "Q2"})
+  {
+    const auto coarse = table(folder / "points" / ("u_m___3_" + method + "_level1.csv")),
+               fine = table(folder / "points" / ("u_m___3_" + method + "_level2.csv"));
+    ASSERT_EQ(fine.size(), method == "Q2" ? 6u : 5u) << method; // and the change, and the estimate
+    EXPECT_EQ(fine.at("x"), (std::vector<double>{.31, .5, 1}));
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(fine.at("error")[k], fine.at("u")[k] - fine.at("exact")[k]);
+      EXPECT_EQ(fine.at("change")[k], fine.at("u")[k] - coarse.at("u")[k]);
+      EXPECT_LT(std::abs(fine.at("error")[k]), method == "Q2" ? 1e-9 : .2); // Q2 has quadratics
+      if (method == "Q2")
+      {
+        EXPECT_LE(std::abs(fine.at("error")[k]), fine.at("estimate")[k]);
+      }
+    }
+  }
+  fs::remove_all(folder);
+}
+
 TEST(Points, have_the_same_files_after_a_kill)
 {
   const std::string file = write("resumed.csv", "x,y\n0.31,0.73\n0.5,0.1\n"),

@@ -257,6 +257,6 @@ TEST(StaticsOnLine, other_analyses_say_why_they_cannot)
     {
       expect_in("static analyses of scalar kernels on intervals", error.what());
     }
-  // of the plane, as certificates and samples are
+  // of the plane, as samples are
   EXPECT_THROW((void)make_problem(make_scene(Settings{}), 0, {.1, .3}), InputError);
 }

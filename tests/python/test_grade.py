@@ -62,6 +62,16 @@ def test_problems_are_known_by_name(file, tmp_path):
         plumbline.grade(points, problem="NLB-01")
 
 
+def test_points_on_a_line_are_numbers():
+    problem = plumbline.certified_problem("NLB-21")
+    points, values = problem["points"], problem["values"]
+    assert points.shape == (len(values), 1)
+    for given in points, points[:, 0]:
+        assert plumbline.grade(given, values * 1.01, "NLB-21")["grades"][0]["rms"] == pytest.approx(.01, rel=1e-9)
+    with pytest.raises(plumbline.InputError, match="give 1 coordinate for each of"):
+        plumbline.grade(np.hstack([points, points]), values, "NLB-21")
+
+
 def test_a_changed_certificate_is_refused(file, tmp_path):
     text = json.loads(file.read_text())
     text["scene_text"] += " "

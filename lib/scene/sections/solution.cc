@@ -92,7 +92,8 @@ namespace plumbline::scene
         "one dimension as a table of x and u, .csv).");
     keys.add(
         "points", points, any_text(),
-        "CSV file with columns x and y (and z in three dimensions): points in the domain at which "
+        "CSV file with columns x and y (x, y and z in three dimensions, x in one): points in the "
+        "domain at which "
         "'run' writes each static solution of Methods/names and of the reference, its error, its "
         "change from the level before and, for Galerkin methods, an estimate of its error "
         "(points/*.csv; no estimate with Reference/estimate = none). The path is relative to the "
