@@ -57,7 +57,7 @@ if names[:1] == ["--write"]:
     sys.exit()
 
 found = sorted(folder.glob("*.prm"))
-if len(found) < 22:
+if len(found) < 24:
     sys.exit(f"{folder}: {len(found)} scenes")
 for path in found:
     certificate = json.loads(path.with_suffix(".certificate.json").read_text())

@@ -3,10 +3,11 @@ import csv
 import html
 import json
 import math
+import pathlib
 import re
 from concurrent.futures import ThreadPoolExecutor
 
-from plumbline_gallery import Drawing, breakable
+from plumbline_gallery import Drawing, breakable, physical_cells
 from plumbline_run import CommandFailed, run
 from plumbline_scene import boxes, number, read_scene
 
@@ -44,6 +45,14 @@ def mapped(values, point):
     return tuple(eval(one.replace("^", "**"), names) for one in values["Domain/map"].split(","))
 
 
+def triangles(values, certificate, folder):
+    """Of a domain that gmsh meshes, smaller than those of the solution; none: it is of boxes."""
+    mesh = values.get("Domain/mesh", "")
+    if not mesh.endswith(".geo"):
+        return []
+    return [corners for name, corners in physical_cells(folder / mesh, .12, certificate["horizon"], 2) if name == "omega"]
+
+
 def grid(values, certificate):
     """Places of a picture in the domain, the step between them; in space those of a plane z = const."""
     domain, holes = ([[mapped(values, corner) for corner in box] for box in boxes(text)]
@@ -70,9 +79,8 @@ def grid(values, certificate):
     return places, step, height
 
 
-def field(name, values, certificate, work, program):
+def field(name, certificate, places, work, program):
     """u at the places of the picture, by the method of the certificate on the coarsest mesh of the scene."""
-    places, step, height = grid(values, certificate)
     folder = work / "certified" / name
     folder.mkdir(parents=True)
     points = folder / "places.csv"
@@ -90,8 +98,7 @@ def field(name, values, certificate, work, program):
         rows = list(csv.DictReader(lines))
     n = certificate["n_components"]
     names = ["u"] if n == 1 else [f"u{c + 1}" for c in range(n)]
-    return places, step, height, [math.hypot(*(float(row[one]) for one in names)) if n > 1 else float(row["u"])
-                                  for row in rows]
+    return [math.hypot(*(float(row[one]) for one in names)) if n > 1 else float(row["u"]) for row in rows]
 
 
 def curve(certificate, places, step, u):
@@ -120,16 +127,25 @@ def curve(certificate, places, step, u):
     return drawing.text(), f"u for x from {lower:g} to {upper:g}; dots: certified points"
 
 
-def picture(name, values, certificate, work, program):
-    places, step, height, u = field(name, values, certificate, work, program)
+def picture(name, values, certificate, folder, work, program):
+    """@param folder  of the scene"""
+    cells = triangles(values, certificate, folder)
+    if cells:
+        places, step, height = [tuple(sum(p[i] for p in cell) / 3 for i in (0, 1)) for cell in cells], 0, 0
+    else:
+        places, step, height = grid(values, certificate)
+    u = field(name, certificate, places, work, program)
     if is_on_line(values):
         return curve(certificate, places, step, u)
     low, high = min(u), max(u)
-    lower = [min(p[i] for p in places) - step / 2 for i in (0, 1)]
-    upper = [max(p[i] for p in places) + step / 2 for i in (0, 1)]
+    corners = [p for cell in cells for p in cell] or places
+    lower = [min(p[i] for p in corners) - step / 2 for i in (0, 1)]
+    upper = [max(p[i] for p in corners) + step / 2 for i in (0, 1)]
     drawing = Drawing(lower, (upper[0] + .3 * (upper[0] - lower[0]), upper[1]))
-    for p, value in zip(places, u):
-        tone = colour((value - low) / (high - low) if high > low else .5)
+    tones = [colour((value - low) / (high - low) if high > low else .5) for value in u]
+    for cell, tone in zip(cells, tones):
+        drawing.polygon(cell, f'fill="{tone}" stroke="{tone}" stroke-width="0.5"')
+    for p, tone in zip(places if not cells else [], tones):
         drawing.box((p[0] - step / 2, p[1] - step / 2), (p[0] + step / 2, p[1] + step / 2),
                     f'fill="{tone}" stroke="{tone}" stroke-width="0.5"')
     dots = [point["x"] for point in certificate["points"] if len(point["x"]) == 2 or point["x"][2] == height]
@@ -164,7 +180,8 @@ def statement(values, certificate, kernels):
     model = values.get("Material/model", "bond-based")
     constants = ", ".join(f"{key} = {values['Material/' + key]}" for key in ("E", "nu", "k", "l")
                           if "Material/" + key in values)
-    rows = [("domain", values.get("Domain/boxes", "0, 0 : 1, 1")
+    rows = [("domain", pathlib.Path(values["Domain/mesh"]).name if values.get("Domain/mesh", "").endswith(".geo")
+             else values.get("Domain/boxes", "0, 0 : 1, 1")
              + (f" without {values['Domain/holes']}" if "Domain/holes" in values else "")
              + (f", mapped by {values['Domain/map']}" if "Domain/map" in values else "")),
             ("horizon δ", f"{certificate['horizon']:g}"),
@@ -208,7 +225,7 @@ def section(path, work, program, pictures, kernels):
     certificate = json.loads(path.with_suffix(".certificate.json").read_text(encoding="utf-8"))
     scene = read_scene(path)
     values, title = scene["values"], name.replace("_", "-")
-    drawing, caption = picture(name, values, certificate, work, program)
+    drawing, caption = picture(name, values, certificate, path.parent, work, program)
     file = f"certified_{name}.svg"
     (pictures / file).write_text(drawing, encoding="utf-8")
     digits = min(point["digits"] for point in certificate["points"])

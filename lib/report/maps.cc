@@ -191,7 +191,10 @@ namespace plumbline::report
     const std::size_t n = maps.size();
     if (is_curve(maps.front()))
     {
-      Plot plot = curve_plot(maps, file, {&study::ErrorMap::values, true}, methods);
+      const bool has_errors = std::any_of( // a method that is the reference has none
+          maps.begin(), maps.end(),
+          [](const study::ErrorMap &map) { return range_of(map.values).high > 0; });
+      Plot plot = curve_plot(maps, file, {&study::ErrorMap::values, has_errors}, methods);
       plot.title = map_title(maps);
       plot.y_label = "|error of " + maps.front().quantity + "| [unit of the solution]";
       return gnuplot_script({plot});

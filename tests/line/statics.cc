@@ -210,6 +210,22 @@ TEST(StaticsOnLine, pictures_are_curves)
   expect_in("x [length]", report::map_script(results.maps, "e.svg"));
 }
 
+TEST(StaticsOnLine, errors_that_are_zero_everywhere_are_drawn)
+{
+  const auto results = run({{"Study/h", "1/10, 1/20"},
+                            {"Problem/solution", ""},
+                            {"Problem/load", "1"},
+                            {"Problem/constraint", "0"},
+                            {"Methods/names", "Q1"},
+                            {"Reference/method", "Q1"},
+                            {"Study/norms", "averages L2"},
+                            {"Study/decisive error", "averages L2 | reference"}});
+  ASSERT_EQ(results.maps.size(), 1u);
+  const std::string script = report::map_script(results.maps, "e.svg");
+  expect_in("x [length]", script);
+  EXPECT_EQ(script.find("logscale y"), std::string::npos);
+}
+
 TEST(StaticsOnLine, refuses_what_a_line_does_not_have)
 {
   const std::map<std::string, std::pair<Settings, std::string>> refused = {
