@@ -318,8 +318,9 @@ namespace plumbline::app
           "moduli", "Elastic constants of meshfree rules on square or cubic lattices");
       command.add_option("--kernel", options->kernel,
                          "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
-      command.add_option("--state", options->state,
-                         "stress (plane stress, default), strain (plane strain) or 3D");
+      command.add_option(
+          "--state", options->state,
+          "strain (plane strain, the default as in scenes), stress (plane stress) or 3D");
       command
           .add_option(check::ratios_option, options->ratios,
                       "Ratios m = horizon / h, separated by commas, semicolons or blanks (default: "
@@ -439,7 +440,7 @@ namespace plumbline::app
                                            "Capabilities of methods, as a table");
       const auto is_short = std::make_shared<bool>(false);
       add_word(app, request, "template", "Print a scene with every key and its help", "MODEL",
-               "scalar, tensor, LPS, variational or double-well",
+               "scalar, tensor, LPS, variational, double-well or crack",
                [=](const std::string &model) {
                  return print(*is_short ? scene::short_template(model)
                                         : scene::scene_template(model));
@@ -456,7 +457,8 @@ namespace plumbline::app
       auto &command = *app.add_subcommand("new", "Write a short scene to start from");
       command.add_option("NAME", options->name, "Scene file; .prm may be left out")->required();
       command.add_option("--kind", options->kind,
-                         "scalar (default), elastic, LPS, variational or double-well");
+                         "scalar (default), elastic, LPS, variational, double-well, or crack: "
+                         "dynamic fracture in SI units");
       command.add_option("--domain", options->domain,
                          "square (default), cube, or a mesh file (.geo or .msh)");
       command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
@@ -465,8 +467,13 @@ namespace plumbline::app
       set_action(command, request,
                  [=]
                  {
-                   const std::string file = scene::write_new_scene(*options);
-                   return print("written: " + file + "; next: plumbline run " + file + '\n');
+                   const scene::NewScene written = scene::write_new_scene(*options);
+                   return print("written: " + written.file +
+                                (written.table.empty()
+                                     ? ""
+                                     : " and " + written.table +
+                                           " (t = r / horizon and rho: put your profile there)") +
+                                "; next: plumbline " + written.command + ' ' + written.file + '\n');
                  });
     }
 

@@ -14,6 +14,7 @@
 #include "report/counted.h"
 #include "report/formats.h"
 #include "report/pdf.h"
+#include "scene/required_keys.h"
 #include "study/reference_estimate.h"
 
 #include <algorithm>
@@ -237,6 +238,7 @@ namespace plumbline::driver
   int analyse(const AnalysisRow &row, const AnalyseOptions &options)
   {
     end_at_interrupts();
+    scene::require_keys(row.name, options.scene_file, options.overrides);
     const auto make_task = [&](const study::Checkpoints &checkpoints)
     {
       Task task{row.make({checkpoints, options.directions, true}), row.view};

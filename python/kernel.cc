@@ -1,6 +1,7 @@
 #include "physics/kernel.h"
 #include "arrays.h"
 #include "bindings.h"
+#include "scene/kernel_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +15,69 @@ namespace plumbline::python
 
   namespace
   {
+    using Table = std::vector<std::array<double, 2>>;
+
+    /// Rows [t, rho], or a file of them.
+    Table to_table(const py::object &given)
+    {
+      if (given.is_none())
+        return {};
+      const bool is_path = py::isinstance<py::str>(given) || py::hasattr(given, "__fspath__");
+      if (is_path)
+        return scene::read_kernel_table(
+            py::module_::import("os").attr("fspath")(given).cast<std::string>());
+      try
+      {
+        return given.cast<Table>();
+      }
+      catch (const py::cast_error &)
+      {
+        throw InputError("Kernel: table is neither rows [t, rho] nor the name of a CSV file with "
+                         "the columns t and rho; give for example [[0, 1], [1, 0]]");
+      }
+    }
+
+    /// What a profile of one's own is given by, and no other.
+    void check_profile(const physics::KernelType &row, bool has_coefficients, bool has_width,
+                       bool has_table)
+    {
+      struct Argument
+      {
+        const char *key, *name, *example;
+        bool is_given;
+      };
+      for (const Argument &one :
+           {Argument{"coefficients", "coefficients",
+                     "[a_0, a_1, ...] of p(t) = a_0 + a_1 t + ..., t = r / horizon; for example "
+                     "coefficients=[1, -1]",
+                     has_coefficients},
+            Argument{"width", "width", "s in horizons; for example width=0.5", has_width},
+            Argument{"table file", "table",
+                     "rows [t, rho] or a CSV file with the columns t and rho, t = r / horizon from "
+                     "0 to 1; for example table=[[0, 1], [1, 0]]",
+                     has_table}})
+        if (row.key == one.key && !one.is_given)
+          throw InputError("Kernel: '" + row.name + "' = " + row.formula + " needs " + one.name +
+                           ", " + one.example);
+        else if (row.key != one.key && one.is_given)
+          throw InputError("Kernel: '" + row.name + "' = " + row.formula + " has no " + one.name +
+                           "; leave it out, or choose another type (plumbline.kernels())");
+    }
+
     /// At most one of the three scales is given.
     template <int dim>
     Kernel<dim> make_kernel(const std::string &type, double horizon,
                             std::optional<double> diffusion, std::optional<double> bulk_modulus,
                             std::optional<double> constant, const std::vector<double> &coefficients,
-                            unsigned int singularity, double width,
-                            const std::vector<std::array<double, 2>> &table)
+                            unsigned int singularity, std::optional<double> width,
+                            const py::object &table)
     {
       const physics::KernelType &row = physics::kernel_type(type);
+      const Table rows = to_table(table);
+      check_profile(row, !coefficients.empty(), width.has_value(), !rows.empty());
       const physics::RadialProfile profile =
-          row.make != nullptr ? row.make({coefficients, singularity, width, table}) : row.profile;
+          row.make != nullptr ? row.make({coefficients, singularity, width.value_or(0), rows})
+                              : row.profile;
       const bool is_tensor = row.structure == Structure::tensor;
       if (diffusion.has_value() + bulk_modulus.has_value() + constant.has_value() > 1)
         throw InputError("Kernel: diffusion, bulk_modulus and constant each set the same factor; "
@@ -91,8 +144,8 @@ namespace plumbline::python
       py::class_<Kernel<dim>>(module, name, documentation)
           .def(py::init(&make_kernel<dim>), "type"_a, "horizon"_a, py::kw_only(),
                "diffusion"_a = py::none(), "bulk_modulus"_a = py::none(), "constant"_a = py::none(),
-               "coefficients"_a = std::vector<double>(), "singularity"_a = 0, "width"_a = 0.,
-               "table"_a = std::vector<std::array<double, 2>>())
+               "coefficients"_a = std::vector<double>(), "singularity"_a = 0,
+               "width"_a = py::none(), "table"_a = py::none())
           .def_property_readonly("horizon", &Kernel<dim>::horizon, "[length]")
           .def_property_readonly("constant", &Kernel<dim>::constant)
           .def_property_readonly("n_components", &Kernel<dim>::n_components,
@@ -138,7 +191,9 @@ diffusion     D of scalar kernels: L tends to -D Laplace as the horizon tends to
 bulk_modulus  of tensor kernels: lambda = mu = 3/5 of it, plane strain [force/length^2]; default 1.
               For Young's modulus E give 5/8 E in plane stress, 2/3 E in plane strain
 constant      c itself instead of either
-coefficients, singularity, width, table   of the types that have a profile of one's own)");
+coefficients  [a_0, a_1, ...], with singularity a: p(t) / t^a, t = r / horizon, of polynomial types
+width         s in horizons, of gaussian and exponential types
+table         of table types: rows [t, rho], or a CSV file with the columns t and rho)");
     bind_kernel<3>(
         module, "SpaceKernel",
         R"(The kernel in three dimensions, see plumbline.Kernel, whose arguments it takes.

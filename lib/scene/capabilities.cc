@@ -63,7 +63,11 @@ namespace plumbline::scene
       case C::notch:
         return {"Crack/notch > 0 ('plumbline crack' simulates it)", "write 0"};
       case C::dilatation:
-        return {model + " with its dilatation", "write Material/model = bond-based"};
+        return {model + " with its dilatation",
+                scene.domain.is_free_body
+                    ? "give constants without a dilatation: lambda = mu, which is nu = 1/4 in "
+                      "plane strain, or l = 4 k"
+                    : "write Material/model = bond-based"};
       case C::zero_dilatation:
         return {"Material/dilatation in interaction domain = zero", "write from data"};
       case C::mixed_dilatation:

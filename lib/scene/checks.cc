@@ -129,22 +129,35 @@ namespace plumbline::scene
 
   namespace
   {
+    /// Of models that have their constants in Material: names only the keys that are wrong.
+    void check_influence(const Scene &scene)
+    {
+      const KernelSection &kernel = scene.kernel;
+      std::vector<std::string> remedies;
+      if (kernel.structure != physics::Structure::scalar)
+        remedies.push_back("write a scalar Kernel/type (1/r, constant, ...), not '" + kernel.type +
+                           "'");
+      if (kernel.limit != Limit::navier)
+        remedies.push_back("write Kernel/limit = Navier, not " + base::word(kernel.limit));
+      if (!kernel.coefficient.empty() || !kernel.materials.empty())
+        remedies.emplace_back("clear Kernel/coefficient and Kernel/materials");
+      require(remedies.empty(), "Material/model = " + scene.material.model->name() +
+                                    " uses Kernel/type as its influence function and takes its "
+                                    "constants from Material; " +
+                                    join(remedies, ", and "));
+    }
+
     void check_kernel(const Scene &scene)
     {
       scene.material.model->check_constants(scene);
       const KernelSection &kernel = scene.kernel;
       const bool is_navier = kernel.limit == Limit::navier;
-      require(
-          !scene.material.model->takes_influence() ||
-              (kernel.structure == physics::Structure::scalar && is_navier &&
-               kernel.coefficient.empty() && kernel.materials.empty()),
-          "Material/model = " + scene.material.model->name() +
-              " uses Kernel/type as its influence function and takes its constants from Material; "
-              "write a scalar Kernel/type (1/r, constant, ...), Kernel/limit = Navier, and "
-              "clear Kernel/coefficient and Kernel/materials");
+      if (scene.material.model->takes_influence())
+        check_influence(scene);
       require(!is_navier || scene.is_vector(),
               "Kernel/limit = Navier does not fit the scalar kernel '" + kernel.type +
-                  "'; choose a bond tensor (Kernel/type) or a Laplace limit");
+                  "'; choose a bond tensor (Kernel/type), a model whose influence function it is "
+                  "(Material/model = LPS, variational or double well) or a Laplace limit");
       require(!scene.is_vector() || is_navier || kernel.limit == Limit::none,
               "Kernel/limit = '" + base::word(kernel.limit) + "' does not fit the bond tensor '" +
                   kernel.type + "'; write Kernel/limit = Navier, or none");

@@ -1,13 +1,18 @@
 #include "scene/new_scene.h"
 
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "base/text_file.h"
+#include "physics/kernel.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 namespace plumbline::scene
 {
@@ -15,11 +20,64 @@ namespace plumbline::scene
   {
     namespace fs = std::filesystem;
 
-    constexpr auto square = "square", cube = "cube", elastic = "elastic", scalar = "scalar";
+    constexpr auto square = "square", cube = "cube", elastic = "elastic", scalar = "scalar",
+                   crack = "crack";
 
-    std::vector<Override> changes_of(const NewSceneOptions &options, const fs::path &folder)
+    /// The profile that a kernel type leaves to the scene: for a start one that falls to 0 at the
+    /// horizon, or does nearly.
+    /// @param table  beside the scene
+    std::vector<Override> profile_of(const std::string &kernel, const fs::path &table)
+    {
+      const auto &types = physics::kernel_types();
+      const auto type = std::find_if(types.begin(), types.end(),
+                                     [name = base::to_lower(kernel)](const auto &one)
+                                     { return one.name == name; });
+      if (type == types.end() || type->key.empty())
+        return {};
+      const std::map<std::string, std::string> values = {
+          {"coefficients", "1, -1"}, {"width", "0.5"}, {"table file", table.filename().string()}};
+      return {{"Kernel/" + std::string(type->key), values.at(type->key)}};
+    }
+
+    /// Units of a scene that is written in SI units, and what its keys mean.
+    std::string with_units(const std::string &text)
+    {
+      const std::map<std::string, std::string> units = {
+          {"Domain/boxes", "m"},
+          {"Material/E", "Pa; bonds have nu = 1/4 in plane strain"},
+          {"Material/toughness", "G_c, J/m^2"},
+          {"Time/density", "kg/m^3"},
+          {"Time/final time", "s"},
+          {"Crack/notch", "m, from the left end along the midline"},
+          {"Crack/load", "energy of the strained strip over that at which a crack grows"},
+          {"Study/m", "horizon / h"},
+          {"Study/h", "m; several values show how the result depends on h"}};
+      constexpr std::size_t column = 46; // of the comments
+      std::string result;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+      {
+        const std::size_t from = std::string("set ").size(),
+                          to = std::min(line.find(" = "), line.size());
+        const auto unit = units.find(line.substr(from, to - from));
+        if (unit != units.end())
+        {
+          line.resize(std::max(line.size() + 1, column), ' ');
+          line += "# " + unit->second;
+        }
+        result += line + '\n';
+      }
+      return result;
+    }
+
+    std::vector<Override> changes_of(const NewSceneOptions &options, const fs::path &folder,
+                                     const fs::path &table)
     {
       std::vector<Override> changes;
+      if (options.kind == crack && options.domain != square)
+        throw InputError("--domain = '" + options.domain +
+                         "', but a crack runs in a strip; leave it out, and change Domain/boxes in "
+                         "the scene");
       if (options.domain == cube)
         changes = {{"Domain/dimension", "3"},
                    {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
@@ -42,7 +100,11 @@ namespace plumbline::scene
                            "' is not there; give a .geo or .msh file, square or cube");
       }
       if (!options.kernel.empty())
+      {
         changes.push_back({"Kernel/type", options.kernel});
+        for (const Override &one : profile_of(options.kernel, table))
+          changes.push_back(one);
+      }
       if (!options.methods.empty())
         changes.push_back({"Methods/names", options.methods});
       return changes;
@@ -63,23 +125,40 @@ namespace plumbline::scene
     }
   } // namespace
 
-  std::string write_new_scene(const NewSceneOptions &options)
+  NewScene write_new_scene(const NewSceneOptions &options)
   {
+    NewScene written;
     fs::path file = options.name;
     if (!base::has_ending(file.string(), ".prm"))
       file += ".prm";
+    fs::path table = file;
+    table.replace_extension(".csv");
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    write_new_file(file, short_template(options.kind == elastic ? "tensor" : options.kind,
-                                        changes_of(options, folder)));
+    const auto changes = changes_of(options, folder, table);
+    const std::string text =
+        short_template(options.kind == elastic ? "tensor" : options.kind, changes);
+    const bool has_table =
+        std::any_of(changes.begin(), changes.end(),
+                    [](const Override &one) { return one.key == "Kernel/table file"; });
+    write_new_file(file, options.kind == crack ? with_units(text) : text);
     try
     {
+      if (has_table)
+      {
+        write_new_file(table, "t,rho\n0,1\n0.5,0.5\n1,0\n");
+        written.table = table.string();
+      }
       (void)read_scene(file.string());
     }
     catch (const InputError &)
     {
       fs::remove(file);
+      if (!written.table.empty())
+        fs::remove(table);
       throw;
     }
-    return file.string();
+    written.file = file.string();
+    written.command = options.kind == crack ? crack : "run";
+    return written;
   }
 } // namespace plumbline::scene

@@ -12,7 +12,14 @@ namespace plumbline::scene
     std::string kernel, methods; ///< empty: those of the kind
   };
 
-  /// Writes a short scene. @return its file
-  /// @throws InputError  the file is there already, or it would be no valid scene: nothing is left
-  std::string write_new_scene(const NewSceneOptions &options);
+  /// What is written, and the command that runs it.
+  struct NewScene
+  {
+    std::string file, command;
+    std::string table; ///< of the kernel's profile, beside the scene; empty: it needs none
+  };
+
+  /// Writes a short scene, and a table where its kernel needs one.
+  /// @throws InputError  a file is there already, or it would be no valid scene: nothing is left
+  NewScene write_new_scene(const NewSceneOptions &options);
 } // namespace plumbline::scene

@@ -153,7 +153,7 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   const std::string strip = "crack " + scene("speed") + " --quiet --levels 1 ";
   const auto set = [&](const std::string &setting) { return strip + "--set '" + setting + "'"; };
   expect_refused("crack " + std::string(PLUMBLINE_SCENES) + "/waves/diffusion.prm",
-                 "Crack/notch = 0, so there is no crack");
+                 "Crack/notch (the notch's length)");
   expect_refused(set("Crack/notch=-1"), "Crack/notch = -1 must be a length > 0");
   expect_refused(set("Crack/notch=0.51"), "Crack/notch = 0.51 is 20.4 mesh sizes");
   expect_refused(set("Crack/notch=3"), "cuts through the strip, which is 3 long");

@@ -5,6 +5,8 @@
 
 #include "scene/scene.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace
@@ -137,6 +139,82 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
   expect_found(run("new " + cube + "_k --kind variational --domain cube").err, "write constrained");
   expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
   expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
+}
+
+TEST(Finding, new_writes_a_crack_in_si_units_that_runs)
+{
+  const std::string name = temporary("new_crack").string(), file = name + ".prm";
+  fs::remove(file);
+  const Outcome outcome = run("new " + name + " --kind crack");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(outcome.out, "next: plumbline crack " + file);
+  const std::string text = read(file);
+  EXPECT_LE(n_lines(text), 20);
+  for (const std::string line : {"set Material/E = 72e9", "set Material/toughness = 8",
+                                 "set Time/density = 2440", "# kg/m^3", "# Pa; bonds have nu ="})
+    expect_found(text, line);
+  const fs::path folder = temporary("new_crack_out");
+  const Outcome crack = run("crack " + file + " -o " + folder.string());
+  EXPECT_EQ(crack.exit_code, 0) << crack.err;
+  expect_found(crack.out, "the crack runs");
+  // by hand: lambda = mu = .4 E of nu = 1/4, so that c_T = sqrt(.4 E / rho), c_R = .9194 c_T
+  const auto record = read_json(folder / "crack.json").at("records")[0].at("scalars");
+  const double c_R = .9194 * std::sqrt(.4 * 72e9 / 2440);
+  EXPECT_NEAR(record.at("c_R").at("value").get<double>(), c_R, 1e-3 * c_R);
+  const double speed = record.at("speed").at("value");
+  EXPECT_GT(speed, .4 * c_R);
+  EXPECT_LT(speed, .7 * c_R);
+  EXPECT_EQ(run("template crack --short").exit_code, 0);
+  expect_found(run("new " + name + "2 --kind crack --domain cube").err, "a crack runs in a strip");
+}
+
+TEST(Finding, new_gives_kernels_a_profile)
+{
+  for (const std::string kernel :
+       {"table", "bond-tensor table", "gaussian", "exponential", "polynomial"})
+  {
+    const std::string name = temporary("new_kernel").string();
+    for (const char *const ending : {".prm", ".csv"})
+      fs::remove(name + ending);
+    const bool is_tensor = kernel.find("tensor") != std::string::npos;
+    const Outcome outcome =
+        run("new " + name + " --kernel '" + kernel + "'" + (is_tensor ? " --kind elastic" : ""));
+    EXPECT_EQ(outcome.exit_code, 0) << kernel << outcome.err;
+    const bool has_table = kernel.find("table") != std::string::npos;
+    EXPECT_EQ(fs::exists(name + ".csv"), has_table) << kernel;
+    if (has_table)
+      expect_found(outcome.out, " and " + name + ".csv (t = r / horizon and rho");
+    EXPECT_EQ(
+        run("run " + name + ".prm --levels 1 --methods FA --quiet -o " + name + "_out").exit_code,
+        0)
+        << kernel;
+  }
+  // a table that is there is kept, and no scene is left
+  const std::string name = temporary("new_kept").string();
+  std::ofstream(name + ".csv") << "mine";
+  fs::remove(name + ".prm");
+  EXPECT_EQ(run("new " + name + " --kernel table").exit_code, 2);
+  EXPECT_EQ(read(name + ".csv"), "mine");
+  EXPECT_FALSE(fs::exists(name + ".prm"));
+}
+
+TEST(Finding, what_a_crack_lacks_is_named_at_once)
+{
+  const std::string bare = write("bare.prm", "set Methods/names = FA\nset Study/m = 4\n");
+  const std::string has_them = "writes a scene that has them";
+  expect_refused("crack " + bare, "these are missing: Crack/notch (the notch's length), "
+                                  "Kernel/limit = Navier, Material/model = double well, "
+                                  "Time/final time (the duration)");
+  expect_refused("crack " + bare, "'plumbline new NAME --kind crack' " + has_them);
+  const std::string glass =
+      "crack " + (fs::path(PLUMBLINE_SCENES) / "griffith/glass.prm").string() + " --set ";
+  expect_refused(glass + "Crack/notch=0", "this is missing: Crack/notch");
+  expect_refused(
+      glass + "Material/E= --set Material/toughness=",
+      "this is missing: Material/E and Material/toughness (G_c), or Material/c and beta");
+  expect_refused(glass + "Kernel/limit=-Laplace", "write Kernel/limit = Navier, not -Laplace");
+  expect_refused("grow " + bare, "these are missing: Fracture/toughness (G_c)");
+  expect_refused("crack no_such.prm", "scene 'no_such.prm' cannot be read");
 }
 
 TEST(Finding, a_number_of_levels_is_at_least_1)

@@ -396,7 +396,7 @@ TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
                  "write uncorrected");
   expect_refused(set("Fracture/criterion=calibrated"), "write toughness");
   expect_refused(set("Domain/cracks=-0.1, 0.55 : 0.4, 0.55"), "goes through node");
-  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
+  expect_refused(set("Domain/cracks="), "this is missing: Domain/cracks (the notch)");
   expect_refused(set("Domain/cracks=-0.1, 0.5 : 3, 0.5"), "no path of bonds joins the grips");
   expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
   expect_refused(set("Domain/fixed=0, 0, 0 : 1, 1, 1"), "is not allowed");
@@ -412,19 +412,19 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   const std::string body = "grow " + plate() + " --quiet ";
   const auto set = [&](const std::string &setting) { return body + "--set '" + setting + "'"; };
   expect_refused("grow " + std::string(PLUMBLINE_SCENES) + "/griffith/run.prm",
-                 "Fracture/toughness is empty, so that nothing breaks");
+                 "these are missing: Fracture/toughness (G_c), Domain/cracks (the notch)");
   expect_refused("run " + plate(), "Fracture/toughness is for 'plumbline grow'");
-  expect_refused("crack " + plate(), "Crack/notch = 0");
+  expect_refused("crack " + plate(), "these are missing: Crack/notch (the notch's length)");
   expect_refused(set("Fracture/toughness=-1"), "Fracture/toughness = -1 must be positive");
   expect_refused(set("Fracture/toughness=x - 1"), "Fracture/toughness = -0.9875 at (0.0125");
   expect_refused(set("Fracture/toughness=x < 0.6 ? 1 : 0"), "give a positive value for each phase");
   expect_refused(set("Material/E=x < 0.6 ? 1 : 0"), "Young's modulus E = 0");
   expect_refused(set("Fracture/toughness=x, y"), "one component");
-  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
+  expect_refused(set("Domain/cracks="), "this is missing: Domain/cracks (the notch)");
   expect_refused(set("Domain/cracks=-1, 0 : -0.5, 0"), "the notch lies outside of the body");
   expect_refused(set("Domain/cracks=-0.1, 0.0125 : 0.5, 0.0125"), "goes through node");
   expect_refused(set("Domain/cracks=-0.1, 0 : 3, 0"), "no path of bonds joins the grips");
-  expect_refused(set("Domain/fixed="), "Domain/fixed, the grips");
+  expect_refused(set("Domain/fixed="), "this is missing: Domain/fixed (the grips)");
   expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
   expect_refused(set("Domain/fixed=0, -0.5 : 2, 0.5"), "holds all nodes");
   expect_refused(set("Domain/boundary=constrained"), "Domain/boundary = free");

@@ -30,6 +30,12 @@ def test_kinds():
     (["horizon", "-1"], lambda: plumbline.Kernel("constant", -1)),
     (["tensor", "bulk_modulus"], lambda: plumbline.Kernel("bond-tensor", .3, diffusion=1)),
     (["give one"], lambda: plumbline.Kernel("constant", .3, diffusion=1, constant=1)),
+    (["'gaussian'", "needs width, s in horizons", "width=0.5"], lambda: plumbline.Kernel("gaussian", .3)),
+    (["'polynomial'", "needs coefficients"], lambda: plumbline.Kernel("polynomial", .3)),
+    (["'table'", "needs table", "[[0, 1], [1, 0]]"], lambda: plumbline.Kernel("table", .3)),
+    (["no_such.csv", "cannot be read"], lambda: plumbline.Kernel("table", .3, table="no_such.csv")),
+    (["neither rows [t, rho] nor the name"], lambda: plumbline.Kernel("table", .3, table=[1, 2])),
+    (["'constant'", "has no width"], lambda: plumbline.Kernel("constant", .3, width=.5)),
     (["rule = 'FB'", "FA, LAMMPS"], lambda: plumbline.weights("FB", KERNEL, .1)),
     (["h = -0.1"], lambda: plumbline.weights("FA", KERNEL, -.1)),
     (["nodes has the shape (3, 1)"],
@@ -98,3 +104,12 @@ def test_a_wrong_number_of_threads_does_not_end_the_process():
     ended = subprocess.run([sys.executable, "-c", "import plumbline"], env=environment,
                            capture_output=True, text=True)
     assert ended.returncode == 1 and "DEAL_II_NUM_THREADS" in ended.stderr
+
+
+def test_a_kernel_takes_the_file_of_its_table(tmp_path):
+    file = tmp_path / "profile.csv"
+    file.write_text("t,rho\n0,1\n1,0\n")
+    bonds = [[.1, .05], [.2, 0]]
+    expected = plumbline.Kernel("table", .3, table=np.array([[0, 1], [1, 0]]))(bonds)
+    assert np.array_equal(plumbline.Kernel("table", .3, table=file)(bonds), expected)
+    assert np.array_equal(plumbline.Kernel("table", .3, table=str(file))(bonds), expected)

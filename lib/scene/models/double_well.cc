@@ -71,7 +71,22 @@ namespace plumbline::scene
                   {"Study/horizon", "0.2"},
                   {"Study/norms", "nodal L2"},
                   {"Study/decisive error", "nodal L2 | reference"},
-                  {"Reference/method", "torus"}}}};
+                  {"Reference/method", "torus"}}},
+                {"crack",
+                 {{"Purpose", "A crack in a notched strip of glass, in SI units."},
+                  {"Domain/boxes", "0, -0.005 : 0.03, 0.005"},
+                  {"Kernel/type", "constant"},
+                  {"Kernel/limit", "Navier"},
+                  {"Material/model", "double well"},
+                  {"Material/E", "72e9"},
+                  {"Material/toughness", "8"},
+                  {"Time/density", "2440"},
+                  {"Time/final time", "8.3e-6"},
+                  {"Crack/notch", "0.01"},
+                  {"Crack/load", "2"},
+                  {"Methods/names", "FA"},
+                  {"Study/m", "4"},
+                  {"Study/h", "0.25e-3"}}}};
       }
 
       void declare(Keys &keys, MaterialSection &material) const override

@@ -1,5 +1,5 @@
-#include "base/csv.h"
 #include "base/error.h"
+#include "scene/kernel_table.h"
 #include "scene/keys.h"
 #include "scene/problem_sections.h"
 #include "scene/values.h"
@@ -64,15 +64,6 @@ namespace plumbline::scene
 
   namespace
   {
-    std::vector<std::array<double, 2>> read_table(const std::string &file)
-    {
-      base::Csv csv(file, {"t", "rho"});
-      std::vector<std::array<double, 2>> rows;
-      while (csv.next())
-        rows.push_back({csv.number("t"), csv.number("rho")});
-      return rows;
-    }
-
     std::string types_with(const std::string &key)
     {
       std::vector<std::string> types;
@@ -106,7 +97,7 @@ namespace plumbline::scene
     try
     {
       if (!table_file.empty())
-        given.table = read_table(file);
+        given.table = read_kernel_table(file);
       profile = known.make(given);
     }
     catch (const InputError &error)

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::scene
+{
+  /// Before a scene is read as a whole: names all keys at once that an analysis cannot do without
+  /// and that neither the file nor the overrides give, and how to get a scene that has them. What
+  /// is wrong with given values is left to read_scene(). Scenes that are pipes cannot be read twice
+  /// and are not checked.
+  /// @param analysis  of driver::analyses()
+  /// @throws InputError  keys are missing
+  void require_keys(const std::string &analysis, const std::string &file,
+                    const std::vector<Override> &overrides);
+} // namespace plumbline::scene
