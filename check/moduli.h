@@ -12,7 +12,7 @@ namespace plumbline::check
   struct ModuliOptions
   {
     std::string kernel = "bond-tensor";    ///< of kernel_types(), a tensor
-    std::string state = "plane stress";    ///< of base::words<physics::ElasticState>
+    std::string state = "plane strain";    ///< of base::words<physics::ElasticState>
     std::string rules = "all";             ///< comma separated
     std::vector<std::string> ratios;       ///< m = horizon / h; empty: 2, 3, 4, 5
     double E = 1;                          ///< Young's modulus that the kernel is made for

@@ -5,13 +5,13 @@ from . import _core
 from ._studies import _study
 
 
-def moduli(rule="all", *, m=(2, 3, 4, 5), E=1., state="plane stress", kernel="bond-tensor"):
+def moduli(rule="all", *, m=(2, 3, 4, 5), E=1., state="plane strain", kernel="bond-tensor"):
     """Elastic constants of rules on lattices, as `plumbline moduli` computes them.
 
     rule    a name ("FA", "IPA-AC-R2", ...), a Rule, or a list of them; "all": those of the library
     m       horizon / h, each between 1 and 50
     E       Young's modulus that the kernel is scaled to [force/area]
-    state   "plane stress", "plane strain" or "3D" (a cubic lattice; not for a Rule)
+    state   "plane strain" (as in scenes), "plane stress" or "3D" (a cubic lattice; not for a Rule)
     kernel  "bond-tensor", "bond-tensor constant" or "bond-tensor conical"
 
     Returns a Study with one record for each rule and m: record["E"], "nu", "C1111", "C1122",
@@ -24,7 +24,7 @@ def moduli(rule="all", *, m=(2, 3, 4, 5), E=1., state="plane stress", kernel="bo
     return _study(_core.moduli_json(names, rules, ratios, E, state, kernel))
 
 
-def moduli_of_weights(kernel, w, xi, *, i=None, points=None, state="plane stress"):
+def moduli_of_weights(kernel, w, xi, *, i=None, points=None, state="plane strain"):
     """Elastic constants of given weights, of each node from the bonds of its family.
 
     kernel  a tensor Kernel
@@ -32,7 +32,7 @@ def moduli_of_weights(kernel, w, xi, *, i=None, points=None, state="plane stress
     xi      from the node to its neighbour, shape (n_bonds, 2) [length]
     i       index of the node, shape (n_bonds,); default: all bonds are of one node
     points  where the kernel is taken, relative to the node, shape (n_bonds, 2); default: xi
-    state   "plane stress" or "plane strain": what E and nu are of
+    state   "plane strain" (as in scenes) or "plane stress": what E and nu are of
 
     Returns a dict of arrays with one value for each node: "nodes" (i, ascending), "C1111", "C1122",
     "C1212", "E", "nu", "shear along axes", "shear across axes", "anisotropy". Both axes are

@@ -25,7 +25,7 @@ namespace
 // by hand: whole cells at the nodes in the ball, bonds c ξ⊗ξ/|ξ|³ with c = 9E/(πδ³) in plane stress
 TEST(ModuliCommand, says_what_modulus_a_rule_has)
 {
-  const Json found = records("--m 3.015 --E 200 --rules FA,IPA-AC-R2");
+  const Json found = records("--state stress --m 3.015 --E 200 --rules FA,IPA-AC-R2");
   ASSERT_EQ(found.size(), 2u);
   double along = 0, across = 0;
   for (int i = -3; i <= 3; ++i)
@@ -57,6 +57,9 @@ TEST(ModuliCommand, takes_the_words_of_scenes)
             run("moduli --state 'plane stress'" + same).out);
   EXPECT_EQ(run("moduli --state strain" + same).out,
             run("moduli --state 'plane strain'" + same).out);
+  // the state is that of scenes, and told
+  EXPECT_EQ(run("moduli" + same).out, run("moduli --state strain" + same).out);
+  expect_found(run("moduli" + same).out, "plane strain");
 }
 
 TEST(ModuliCommand, knows_three_dimensions)

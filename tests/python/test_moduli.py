@@ -27,7 +27,7 @@ def test_moduli_are_those_of_the_command(root, state):
 
 
 def test_full_area_in_plane_stress_is_the_hand_calculation():
-    record, = plumbline.moduli("FA", m=3.015, E=200).records
+    record, = plumbline.moduli("FA", m=3.015, E=200, state="plane stress").records
     assert record["E"] == pytest.approx(209.7, abs=.05)
     assert record["nu"] == pytest.approx(.318, abs=.0005)
     assert record["shear along axes"] == pytest.approx(74.3, abs=.05)
@@ -38,9 +38,9 @@ def test_full_area_in_plane_stress_is_the_hand_calculation():
 def test_weights_have_the_moduli_of_their_rule(rule):
     m, E = 3.015, 200.
     kernel = plumbline.Kernel("bond-tensor", m, bulk_modulus=5 * (3 * E / 8) / 3)
-    record, = plumbline.moduli(rule, m=m, E=E).records
+    record, = plumbline.moduli(rule, m=m, E=E, state="plane stress").records
     w = plumbline.weights(rule, kernel, 1)
-    found = plumbline.moduli_of_weights(kernel, w.w, w.xi, points=w.points)
+    found = plumbline.moduli_of_weights(kernel, w.w, w.xi, points=w.points, state="plane stress")
     for name in ("C1111", "C1122", "C1212", "E", "nu", "shear along axes", "anisotropy"):
         assert found[name].shape == (1,) and found[name][0] == record[name], name
 
@@ -51,7 +51,7 @@ def test_weights_of_nodes_have_moduli_for_each_node(square):
     w = plumbline.weights("IPA-AC-R2", kernel, nodes=nodes, boxes=square)
     order = np.random.default_rng(0).permutation(len(w.w))
     found = plumbline.moduli_of_weights(kernel, w.w[order], w.xi[order], i=w.i[order],
-                                        points=w.points[order])
+                                        points=w.points[order], state="plane stress")
     assert np.array_equal(found["nodes"], np.unique(w.i)) and len(found["E"]) == 64
     assert found["E"] == pytest.approx(np.ones(64), rel=1e-11)
     assert found["nu"] == pytest.approx(np.full(64, 1 / 3), rel=1e-11)
