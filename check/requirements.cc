@@ -29,6 +29,8 @@ namespace plumbline::check
   {
     constexpr std::size_t most_named = 5;
 
+    const std::string cause_word = "cause: ", question = "is the scene that of these bonds? ";
+
     std::string point(const dealii::Point<2> &x)
     {
       return "(" + base::to_text(x[0], 5) + ", " + base::to_text(x[1], 5) + ")";
@@ -102,7 +104,8 @@ namespace plumbline::check
       return moments.mean_ratio > 0
                  ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
                    "about " +
-                       base::to_percent(std::abs(1 / moments.mean_ratio - 1))
+                       base::to_percent(std::abs(1 / moments.mean_ratio - 1)) +
+                       ", as a solution is inverse to its operator"
                  : "as horizon and h go to 0 together there is no limit, the operator has the "
                    "wrong sign";
     }
@@ -282,6 +285,38 @@ namespace plumbline::check
       return of_body;
     }
 
+    double longest_bond(const Findings &found)
+    {
+      double longest = 0;
+      for (const Family<2> &family : found.given.families)
+        for (const Bond<2> &bond : family.bonds)
+          longest = std::max(longest, bond.xi.norm());
+      return longest;
+    }
+
+    /// Moments are those of the scene's horizon: if that is not the horizon of the bonds, all
+    /// weights seem wrong, and any cause that is named would be a wrong one.
+    std::string scene_mismatch(const Findings &found)
+    {
+      constexpr double shell = 1.05; // spacings by which bonds may miss the horizon, or exceed it
+      const double h = found.level.level.h, horizon = found.level.level.horizon,
+                   spacing = found.level.node_size, longest = longest_bond(found);
+      std::string what;
+      if (!found.level.is_near())
+        what = "the nodes' spacing is " + base::to_text(spacing, 6) +
+               ", but the nearest level of the scene has h = " + base::to_text(h, 6) +
+               " and the horizon " + base::to_text(horizon, 6);
+      else if (longest > 0 && std::abs(longest - horizon) > shell * spacing)
+        what = "the longest bond is " + base::to_text(longest, 6) +
+               ", but the scene has the horizon " + base::to_text(horizon, 6) + " at the spacing " +
+               base::to_text(spacing, 6);
+      return what.empty() ? ""
+                          : question + what +
+                                "; give Study/h and Study/m, or Study/horizon, of your bonds and "
+                                "check again: until then all moments are compared with those of "
+                                "another ball, and no cause is named";
+    }
+
     std::vector<std::string> interior_complaints(const Findings &found,
                                                  const Requirements &required)
     {
@@ -289,10 +324,10 @@ namespace plumbline::check
       const double ratio = found.level.node_size / found.level.level.horizon;
       for (const Cause &cause : found.causes)
         if (!cause.is_own_error || is_too_inexact(found, required))
-          result.push_back("cause: " + cause.text);
+          result.push_back(cause_word + cause.text);
       add_outliers(found, result);
       if (required.ac && worst_of_both(found) > found.precision.moments)
-        result.push_back("required ac: " + off(found) + "; " + consequence(found));
+        result.push_back("required ac: " + off(found));
       if (required.consistent && found.moments.typical() > ratio)
         result.push_back("required consistent: moments of most nodes are off by " +
                          base::to_percent(found.moments.typical()) + ", more than h/horizon = " +
@@ -318,15 +353,12 @@ namespace plumbline::check
         result.push_back("the matrix is NOT positive definite: " +
                          std::to_string(found.matrix.n_negative_eigenvalues) +
                          " negative eigenvalues");
-      constexpr double alike = .05; // of the spacing of scattered nodes and the level's h
-      const double h = found.level.level.h;
-      if (!result.empty() && std::abs(std::log(found.level.node_size / h)) > alike)
-        result.insert(
-            result.begin(),
-            "is the scene that of these nodes? Its nearest level has h = " + base::to_text(h, 6) +
-                " and the horizon " + base::to_text(found.level.level.horizon, 6) +
-                ", their spacing is " + base::to_text(found.level.node_size, 6) +
-                "; give Study/h and Study/m, or Study/horizon, of your bonds");
+      if (const std::string mismatch = scene_mismatch(found); !mismatch.empty() && !result.empty())
+      {
+        const auto is_cause = [](const std::string &one) { return one.find(cause_word) == 0; };
+        result.erase(std::remove_if(result.begin(), result.end(), is_cause), result.end());
+        result.insert(result.begin(), mismatch);
+      }
       return result;
     }
 
@@ -360,9 +392,11 @@ namespace plumbline::check
         result.push_back((moments.typical() > found.precision.moments
                               ? "not asymptotically compatible (not AC): "
                               : std::string()) +
-                         "second moments off by " + base::to_percent(moments.mean_ratio - 1) +
-                         " on average (worst " + base::to_percent(moments.second.value) +
-                         " at node " + found.id(moments.second.node) + "): " + consequence(found));
+                         "second moments are off by " + base::to_percent(moments.second.value) +
+                         " at node " + found.id(moments.second.node) +
+                         ", the largest component; their trace, the strength of the operator, by " +
+                         base::to_percent(moments.mean_ratio - 1) +
+                         " on average: " + consequence(found));
       if (found.n_on_boundary > 0)
         result.push_back(std::to_string(found.n_on_boundary) +
                          " free nodes lie on the boundary of the domain; if they carry data, write "
@@ -377,6 +411,11 @@ namespace plumbline::check
   {
     const std::vector<std::string> result = interior_complaints(found, required);
     return found.body ? after_body(body_complaints(found, required), result) : result;
+  }
+
+  bool is_question(const std::string &complaint)
+  {
+    return complaint.find(question) == 0;
   }
 
   std::vector<std::string> verdicts(const Findings &found)

@@ -26,6 +26,9 @@ namespace plumbline::check
   /// definite, a cause of all weights, outliers, whatever is required.
   std::vector<std::string> complaints(const Findings &found, const Requirements &required);
 
+  /// Whether a complaint doubts that the scene belongs to the bonds: all others rest on that.
+  bool is_question(const std::string &complaint);
+
   /// What else there is to say.
   std::vector<std::string> verdicts(const Findings &found);
 

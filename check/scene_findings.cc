@@ -32,6 +32,12 @@ namespace plumbline::check
     return text.str();
   }
 
+  bool ChosenLevel::is_near() const
+  {
+    constexpr double alike = .05;
+    return std::abs(std::log(node_size / level.h)) <= alike;
+  }
+
   namespace
   {
     /// The level whose h is nearest to the spacing of the nodes, by their ratio.
@@ -248,7 +254,11 @@ namespace plumbline::check
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
     if (body.has_free_boundary)
       body.parts = parts_of(scene, mesh);
-    check_places(weights.nodes, mesh, found.level.text());
+    check_places(weights.nodes, mesh,
+                 found.level.text() + (found.level.is_near()
+                                           ? ""
+                                           : ", while the nodes' spacing is " +
+                                                 base::to_text(found.level.node_size, 6)));
     GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
     weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
     found.n_on_boundary = boundary_is_data || body.has_free_boundary ? 0 : cells.n_on_boundary;

@@ -35,6 +35,7 @@ namespace plumbline::check
     double node_size = 0; ///< spacing of the nodes in Ω: √ of the mean area of their cells [length]
 
     std::string text() const;
+    bool is_near() const; ///< h is the spacing, as closely as that of scattered nodes can be told
   };
 
   /// What one case of the scene shows, in the records of a study: of its solution by the weights,

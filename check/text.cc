@@ -182,7 +182,10 @@ namespace plumbline::check
     tell_operator(out, found);
     std::vector<std::string> sentences = verdicts(found);
     const auto wrong = complaints(found, required);
-    sentences.insert(sentences.end(), wrong.begin(), wrong.end());
+    // what all else hangs on comes first
+    const auto others = wrong.begin() + (!wrong.empty() && is_question(wrong.front()) ? 1 : 0);
+    sentences.insert(sentences.end(), others, wrong.end());
+    sentences.insert(sentences.begin(), wrong.begin(), others);
     return check_summary(out.str(), sentences, wrong.empty() ? "as required" : "NOT as required");
   }
 

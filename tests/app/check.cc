@@ -158,7 +158,8 @@ TEST(Check, says_how_wrong_the_limit_is)
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   expect_found(outcome.out, "cause: all weights carry a common factor of 1.2; without that the "
                             "moments are off by nothing instead of 20 %");
-  expect_found(outcome.out, "second moments off by 20 % on average (worst 20 % at node");
+  expect_found(outcome.out, "second moments are off by 20 % at node");
+  expect_found(outcome.out, "their trace, the strength of the operator, by 20 % on average");
   expect_found(outcome.out, "tends to a wrong limit, off by about 16.7 %");
 }
 
@@ -205,7 +206,7 @@ TEST(Check, refuses_nodes_that_cannot_be_used)
   }
   refuse("1,-0.3125,-0.4125,0.015625\n",
          {"line 2: node 1 at (-0.3125, -0.4125) lies outside of the domain and its collar at the "
-          "level m = 3: h = 0.125, horizon = 0.375; take"});
+          "level m = 3: h = 0.125, horizon = 0.375; give"});
   expect_refusal(write("nodes.csv", replace(text, "volume", "area")), bonds_file,
                  {"has no column volume in its first line 'id,x,y,area'"});
   expect_refusal(write("nodes.csv", "id,x,y,volume\n1,7,7,1\n"), bonds_file,

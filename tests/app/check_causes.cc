@@ -311,14 +311,35 @@ TEST(CheckCauses, threads_are_taken)
   EXPECT_EQ(check(nodes_file, bonds_file, "--quiet --threads 1").exit_code, 0);
 }
 
-// a scene of another mesh size: its horizon is not that of the bonds, which are right
-TEST(CheckCauses, a_scene_of_other_nodes_is_asked_about_first)
+// a scene of another mesh size or horizon: the bonds, which are right, are not blamed
+TEST(CheckCauses, a_scene_of_other_bonds_is_asked_about_first)
 {
-  const std::string question = "is the scene that of these nodes? Its nearest level has h = 0.25";
-  const Outcome other = check(nodes_file, bonds_file, "--set Study/h=0.25 --set Study/m=1.6");
-  EXPECT_EQ(other.exit_code, 1) << other.err;
-  expect_found(other.out, question + " and the horizon 0.4, their spacing is 0.125");
+  const std::string question = "is the scene that of these bonds? ";
+  struct Other
+  {
+    std::string changes, numbers;
+  };
+  for (const Other &other :
+       {Other{
+            "--set Study/h=0.25 --set Study/m=1.6",
+            "the nodes' spacing is 0.125, but the nearest level of the scene has h = 0.25 and the "
+            "horizon 0.4; give"},
+        Other{"--set Study/m=5",
+              "the longest bond is 0.450694, but the scene has the horizon 0.625 "
+              "at the spacing 0.125; give"}})
+  {
+    const Outcome outcome = check(nodes_file, bonds_file, other.changes);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    expect_found(outcome.out, question + other.numbers);
+    EXPECT_LT(outcome.out.find(question), outcome.out.find("not asymptotically compatible"));
+    expect_not_found(outcome.out, "cause: ");
+  }
   const Outcome own = check(nodes_file, (folder / "bonds_wrong.csv").string());
   EXPECT_EQ(own.exit_code, 1) << own.err;
-  expect_not_found(own.out, "is the scene that of these nodes");
+  expect_not_found(own.out, question);
+  // where the scene's nodes are fewer, those of the file do not fit in
+  const Outcome outside = check(nodes_file, bonds_file, "--set Study/h=0.1");
+  EXPECT_EQ(outside.exit_code, 2);
+  expect_found(outside.err, "h = 0.1, horizon = 0.3, while the nodes' spacing is 0.125; give "
+                            "the h and the horizon of your bonds (Study)");
 }
