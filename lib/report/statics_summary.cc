@@ -170,7 +170,7 @@ namespace plumbline::report
     /// Of the first problems and series.
     void print_cheapest(std::ostream &out, const StudyResults &results)
     {
-      constexpr std::size_t most = 2, most_targets = 2;
+      constexpr std::size_t most = 2, most_targets = 2, most_lines = 2;
       constexpr int n_digits = 3;
       std::size_t n = 0;
       for (const study::Advice &advice : results.advice)
@@ -186,8 +186,11 @@ namespace plumbline::report
                     base::to_text(choice.target, n_digits) + ": " + choice.method +
                     " at h = " + base::to_text(choice.h, n_digits) + ", " +
                     base::to_text(choice.seconds, n_digits) + " CPU s";
+            for (std::size_t k = 0; k < choice.tied.size(); ++k)
+              line += (k == 0 ? ", a tie with " : ", ") + choice.tied[k];
           }
-          print(out, line);
+          for (const std::string &part : short_lines(line, most_lines))
+            out << part << '\n';
         }
     }
   } // namespace

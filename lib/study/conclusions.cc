@@ -279,6 +279,16 @@ namespace plumbline::study
         results.facts[what] = value;
     }
 
+    /// Verdicts rest on a reference; without an estimate nobody knows how far they carry.
+    void tell_unknown_reference(const scene::Scene &scene, StudyResults &results)
+    {
+      if (is_against_reference(results.decisive_error) && scene.reference.method &&
+          scene.reference.estimate == scene::Estimate::none)
+        results.facts["error of the reference"] =
+            "not estimated (Reference/estimate = none); verdicts assume that it is at most a tenth "
+            "of the last errors";
+    }
+
     /// The run with most bonds, of those without a matrix or of all; null: there is none.
     const Record *largest_run(const Records &records, bool is_without_matrix)
     {
@@ -389,6 +399,7 @@ namespace plumbline::study
     check_expectations(scene, results);
     give_advice(scene, results);
     list_constants(scene, results);
+    tell_unknown_reference(scene, results);
     list_omissions(scene, results);
   }
 } // namespace plumbline::study

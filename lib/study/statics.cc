@@ -9,6 +9,7 @@
 #include "study/conclusions.h"
 #include "study/contradiction.h"
 #include "study/energy.h"
+#include "study/estimate_cost.h"
 #include "study/motion_norms.h"
 #include "study/node_warnings.h"
 #include "study/preflight.h"
@@ -104,6 +105,11 @@ namespace plumbline::study
         return place_.series().name == scene_.study.series.front().name;
       }
 
+      EstimateCost &cost_of_estimates() const
+      {
+        return place_.kept<EstimateCost>(EstimateCost::name);
+      }
+
       OpenCases open_cases() const
       {
         OpenCases cases;
@@ -118,7 +124,8 @@ namespace plumbline::study
                 find_method(available_, *scene_.reference.method, "Reference/method");
             const auto points =
                 options_.points ? options_.points(one.problem) : std::vector<dealii::Point<2>>{};
-            ReferenceAverages reference = solve_reference(one, *method, scene_.reference, points);
+            ReferenceAverages reference = cost_of_estimates().timed(
+                [&] { return solve_reference(one, *method, scene_.reference, points); });
             results_.references.push_back(placed(reference.estimate, place_, one.name));
             if (!points.empty())
               options_.on_values(reference.at_points, reference_record(place_, *method, one.name));
@@ -201,8 +208,12 @@ namespace plumbline::study
                                   scene_.reference.estimate != scene::Estimate::none;
         if (!is_shown && !is_at_points)
           return {};
-        const ErrorEstimate found = estimate_error(
-            one, method, solution, true, is_at_points ? points : std::vector<dealii::Point<2>>{});
+        const ErrorEstimate found = cost_of_estimates().timed(
+            [&]
+            {
+              return estimate_error(one, method, solution, true,
+                                    is_at_points ? points : std::vector<dealii::Point<2>>{});
+            });
         if (is_shown)
           results_.estimates.push_back(placed(found, place_, one.name));
         return found.at_points;
@@ -333,7 +344,10 @@ namespace plumbline::study
                  : LevelOfStatics(place, available, options).run(method);
     };
     analysis.complete = [](const scene::Scene &scene, Common &common)
-    { common.kept<OwnFinest>(own_finest).compare(scene, common.results.records); };
+    {
+      common.kept<OwnFinest>(own_finest).compare(scene, common.results.records);
+      common.kept<EstimateCost>(EstimateCost::name).tell(common.results);
+    };
     analysis.conclude = [](const scene::Scene &scene, StudyResults &results)
     {
       sort_by_case(scene, results);

@@ -7,6 +7,7 @@
 #include "study/compared_case.h"
 #include "study/comparison.h"
 #include "study/energy.h"
+#include "study/estimate_cost.h"
 #include "study/estimate_in_space.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
@@ -206,7 +207,13 @@ namespace plumbline::study
             },
             [&](const auto &field, const ProblemInSpace &problem)
             { return cell_averages(field, problem, ranks_); },
-            [&](const CaseInSpace &one) { return solve_reference(one); });
+            [&](const CaseInSpace &one)
+            { return cost_of_estimates().timed([&] { return solve_reference(one); }); });
+      }
+
+      EstimateCost &cost_of_estimates() const
+      {
+        return place_.kept<EstimateCost>(EstimateCost::name);
       }
 
       std::vector<double> solve_reference(const CaseInSpace &one) const
@@ -277,7 +284,8 @@ namespace plumbline::study
         std::vector<double> errors;
         if (is_shown || is_at_points)
         {
-          const ErrorEstimate found = estimate_in_space(method, problem, solution, ranks_, points);
+          const ErrorEstimate found = cost_of_estimates().timed(
+              [&] { return estimate_in_space(method, problem, solution, ranks_, points); });
           errors = found.at_points;
           if (is_shown)
             place_.results().estimates.push_back(placed(found, place_, one.name));

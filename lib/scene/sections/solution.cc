@@ -25,8 +25,10 @@ namespace plumbline::scene
         "torus for transient double wells.");
     keys.add("estimate", estimate,
              "Galerkin solutions whose error is estimated from outer quadrature, h/2, 2h and "
-             "degree p+1: the reference, every solution, or none. automatic: the reference; every "
-             "solution if there is neither a reference nor an exact solution.");
+             "degree p+1: the reference, every solution, or none. The estimate can take ten to "
+             "twenty times as long as the solution, on meshes above all: write none for first "
+             "trials. automatic: the reference; every solution if there is neither a reference nor "
+             "an exact solution.");
     keys.add("tolerance", tolerance, between(0, 1),
              "Largest permitted error estimate of the reference, relative to the solution; if it "
              "is exceeded the run ends with exit code 3. 0: the estimate is only reported.");

@@ -1,0 +1,20 @@
+#include "study/estimate_cost.h"
+
+#include "base/number_text.h"
+
+namespace plumbline::study
+{
+  void EstimateCost::tell(StudyResults &results) const
+  {
+    constexpr double long_enough = 2; // CPU s
+    constexpr int n_digits = 2;
+    double all = seconds_;
+    for (const Record &record : results.records)
+      all += record.cost.seconds();
+    if (seconds_ < long_enough || seconds_ < .5 * all)
+      return;
+    results.facts["time of the reference and error estimates"] =
+        base::to_text(seconds_, n_digits) + " of " + base::to_text(all, n_digits) +
+        " CPU s; for first trials write Reference/estimate = none";
+  }
+} // namespace plumbline::study

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "base/cost.h"
+#include "study/study_results.h"
+
+namespace plumbline::study
+{
+  /// CPU time that a study's references and error estimates take, which no record counts.
+  class EstimateCost
+  {
+  public:
+    static constexpr auto name = "cost of estimates"; ///< what the study keeps of it
+
+    /// What `solve` returns, and its time counted.
+    template <class Solve>
+    auto timed(const Solve &solve)
+    {
+      const base::CpuTimer timer;
+      auto result = solve();
+      seconds_ += timer.seconds();
+      return result;
+    }
+
+    /// Says it among the facts of a study where it is most of the time, and long enough to wait
+    /// for; and how to do without.
+    void tell(StudyResults &results) const;
+
+  private:
+    double seconds_ = 0;
+  };
+} // namespace plumbline::study
