@@ -12,7 +12,6 @@
 #include "io/output_folder.h"
 #include "io/point_values.h"
 #include "report/certificate_text.h"
-#include "scene/on_line.h"
 #include "study/preflight.h"
 
 #include <iostream>
@@ -25,25 +24,6 @@ namespace plumbline::driver
 
   namespace
   {
-    /// @throws InputError      a point is listed twice
-    /// @throws NumericalError  nothing is certified; the first rank shows the values
-    void check_result(const Certificate &certificate, bool is_first)
-    {
-      const study::CertifiedPlaces places(certificate);
-      for (std::size_t i = 0; i < certificate.points.size(); ++i)
-        if (const auto &x = certificate.points[i].x; places.find(x) != i)
-          throw InputError("Output/points: " + io::place_text(x) + " is listed twice; remove one");
-      if (!(certificate.size > 0))
-        throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
-                             "to its size; give a load, or other points");
-      const std::string refusal = report::certificate_refusal(certificate);
-      if (refusal.empty())
-        return;
-      if (is_first)
-        std::cerr << report::to_text(report::certificate_table(certificate, true));
-      throw NumericalError("nothing is certified: " + refusal);
-    }
-
     void write(const Certificate &certificate, const fs::path &folder)
     {
       base::write_file(folder / "certificate.json", io::to_json(certificate));
@@ -53,22 +33,14 @@ namespace plumbline::driver
     }
   } // namespace
 
-  int certify(const CertifyOptions &options)
+  Certificate certificate_of(const scene::Scene &scene, unsigned int reference_level,
+                             const std::function<void()> &begin)
   {
-    end_at_interrupts();
-    // every rank solves, and they share the work on meshes; the first one talks and writes
-    const base::Communicator ranks = base::Communicator::all();
-    const bool is_first = ranks.rank() == 0, is_quiet = options.quiet || !is_first;
-    const scene::Scene scene = read_scene(options);
     study::check_certifiable(scene);
     const io::PointValues points(scene);
-    const study::CertifiedWays ways =
-        study::certified_ways(scene, all_methods(), options.reference_level);
+    const study::CertifiedWays ways = study::certified_ways(scene, all_methods(), reference_level);
     study::check_data(scene);
-    const fs::path folder = output_folder(options, scene);
-    const io::OutputFolder output(folder, {"certify", scene.name, scene.text, note}, ranks);
-    std::optional<base::ProgressLine> progress(!is_quiet);
-    progress->show("certify", 0);
+    begin();
     Certificate certificate =
         is_on_intervals(scene)
             ? study::certify(scene, *ways.galerkin, ways.rules, ways.level,
@@ -78,10 +50,49 @@ namespace plumbline::driver
                              [&](const problem::Problem<3> &one) { return points.of(one); })
             : study::certify(scene, *ways.galerkin, ways.rules, ways.level,
                              [&](const problem::Problem<2> &one) { return points.of(one); });
-    progress.reset();
     certificate.hash = base::sha256(certificate.scene_text);
     certificate.version = PLUMBLINE_VERSION;
-    check_result(certificate, is_first);
+    return certificate;
+  }
+
+  void check_certified(const Certificate &certificate, bool shows_values)
+  {
+    const study::CertifiedPlaces places(certificate);
+    for (std::size_t i = 0; i < certificate.points.size(); ++i)
+      if (const auto &x = certificate.points[i].x; places.find(x) != i)
+        throw InputError("Output/points: " + io::place_text(x) + " is listed twice; remove one");
+    if (!(certificate.size > 0))
+      throw NumericalError("nothing is certified: u is 0 at all points, and digits are relative "
+                           "to its size; give a load, or other points");
+    const std::string refusal = report::certificate_refusal(certificate);
+    if (refusal.empty())
+      return;
+    if (shows_values)
+      std::cerr << report::to_text(report::certificate_table(certificate, true));
+    throw NumericalError("nothing is certified: " + refusal);
+  }
+
+  int certify(const CertifyOptions &options)
+  {
+    end_at_interrupts();
+    // every rank solves, and they share the work on meshes; the first one talks and writes
+    const base::Communicator ranks = base::Communicator::all();
+    const bool is_first = ranks.rank() == 0, is_quiet = options.quiet || !is_first;
+    const scene::Scene scene = read_scene(options);
+    const fs::path folder = output_folder(options, scene);
+    std::optional<io::OutputFolder> output;
+    std::optional<base::ProgressLine> progress;
+    const Certificate certificate = certificate_of(
+        scene, options.reference_level,
+        [&]
+        {
+          output.emplace(folder, io::OutputFolder::Owner{"certify", scene.name, scene.text, note},
+                         ranks);
+          progress.emplace(!is_quiet);
+          progress->show("certify", 0);
+        });
+    progress.reset();
+    check_certified(certificate, is_first);
     base::on_first_rank(ranks, [&] { write(certificate, folder); });
     if (is_first && options.json)
       std::cout << io::to_json(certificate);

@@ -1,9 +1,12 @@
 #include "bindings.h"
 #include "driver/analyse.h"
+#include "driver/certify.h"
 #include "driver/methods.h"
+#include "io/certificate_json.h"
 #include "io/results_json.h"
 #include "reading.h"
 #include "rule.h"
+#include "scene/required_keys.h"
 #include "study/method_names.h"
 #include "study/reference_estimate.h"
 #include "study/statics.h"
@@ -79,8 +82,10 @@ namespace plumbline::python
       {
         const py::gil_scoped_release others;
         const method::Methods available = available_with(rules);
-        scene::Scene scene = study::with_names_of(scene_of(text, overrides), available);
         const driver::AnalysisRow *const row = driver::find_analysis(name);
+        if (row != nullptr && text.find('\n') == std::string::npos)
+          scene::require_keys(name, text, overrides);
+        scene::Scene scene = study::with_names_of(scene_of(text, overrides), available);
         if (row == nullptr && name != run_name)
           throw InputError("no analysis is called '" + name + "'");
         if (row != nullptr)
@@ -101,8 +106,23 @@ namespace plumbline::python
     }
   } // namespace
 
+  namespace
+  {
+    /// certificate.json of a scene. Not interrupted until it is done.
+    std::string certify(const std::string &text, const py::dict &set, unsigned int reference_level)
+    {
+      const std::vector<scene::Override> overrides = to_overrides(set);
+      const py::gil_scoped_release others;
+      const study::Certificate certificate =
+          driver::certificate_of(scene_of(text, overrides), reference_level);
+      driver::check_certified(certificate, false);
+      return io::to_json(certificate);
+    }
+  } // namespace
+
   void add_studies(py::module_ &module)
   {
+    module.def("certify_json", certify, "scene"_a, "set"_a, "reference_level"_a);
     module.def("study_json", analyse, "analysis"_a, "scene"_a, "set"_a, "rules"_a, "levels"_a,
                "folder"_a = "", "angles"_a = py::tuple(), "directions"_a = py::tuple());
   }

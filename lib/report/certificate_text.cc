@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace plumbline::report
 {
@@ -54,11 +55,32 @@ namespace plumbline::report
       return columns;
     }
 
-    std::vector<Cell> row_of(const CertifiedValue &one, std::size_t dimension)
+    /// The fewest digits with which no two different coordinates look alike.
+    int digits_of_places(const Certificate &certificate)
+    {
+      constexpr int fewest = 4, most = 17;
+      std::set<double> places;
+      for (const CertifiedValue &one : certificate.points)
+        places.insert(one.x.begin(), one.x.end());
+      for (int n_digits = fewest; n_digits < most; ++n_digits)
+      {
+        std::set<std::string> texts;
+        for (const double x : places)
+          texts.insert(base::to_text(x, n_digits));
+        if (texts.size() == places.size())
+          return n_digits;
+      }
+      return most;
+    }
+
+    std::vector<Cell> row_of(const CertifiedValue &one, std::size_t dimension, int n_digits)
     {
       std::vector<Cell> row;
       for (const double x : one.x)
+      {
         row.push_back(number_cell(x));
+        row.back().text = base::to_text(x, n_digits);
+      }
       if (one.x.empty())
       {
         row.push_back(text_cell("mean"));
@@ -90,10 +112,11 @@ namespace plumbline::report
   {
     Table table{"", columns_of(certificate), {}};
     const std::size_t dimension = certificate.points.front().x.size();
+    const int n_digits = digits_of_places(certificate);
     for (const CertifiedValue &one : certificate.points)
-      table.rows.push_back(row_of(one, dimension));
+      table.rows.push_back(row_of(one, dimension, n_digits));
     if (has_mean && certificate.mean)
-      table.rows.push_back(row_of(*certificate.mean, dimension));
+      table.rows.push_back(row_of(*certificate.mean, dimension, n_digits));
     return table;
   }
 

@@ -18,10 +18,10 @@ from ._grade import certified_problem, certified_problems, grade
 from ._matrix import Matrix, load_matrix, matrix
 from ._moduli import moduli, moduli_of_weights
 from . import space
-from ._studies import Record, Records, Study, crack, dispersion, grow, run, stability, strip
+from ._studies import Record, Records, Study, certify, crack, dispersion, grow, run, stability, strip
 
 __all__ = ["Findings", "InputError", "Kernel", "Matrix", "Nodes", "NumericalError", "Problem", "Record",
-           "Records", "Rule", "Solution", "Study", "Weights", "certified_problem", "certified_problems", "check",
-           "crack", "dispersion", "grade", "grow", "kernels", "load_matrix", "matrix", "methods", "moduli",
+           "Records", "Rule", "Solution", "Study", "Weights", "certified_problem", "certified_problems", "certify",
+           "check", "crack", "dispersion", "grade", "grow", "kernels", "load_matrix", "matrix", "methods", "moduli",
            "moduli_of_weights", "read_nodes", "reference", "run", "set_threads", "solve", "space", "stability",
            "strip", "weights"]

@@ -1,3 +1,4 @@
+import os
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -17,8 +18,8 @@ class NumericalError(ArithmeticError, RuntimeError): ...
 class Kernel:
     def __init__(self, type: str, horizon: float, *, diffusion: Optional[float] = ...,
                  bulk_modulus: Optional[float] = ..., constant: Optional[float] = ...,
-                 coefficients: Sequence[float] = ..., singularity: int = ..., width: float = ...,
-                 table: Sequence[Tuple[float, float]] = ...) -> None: ...
+                 coefficients: Sequence[float] = ..., singularity: int = ..., width: Optional[float] = ...,
+                 table: Union[None, str, "os.PathLike[str]", npt.ArrayLike] = ...) -> None: ...
     @property
     def horizon(self) -> float: ...
     @property
@@ -35,8 +36,8 @@ class Kernel:
 class SpaceKernel:
     def __init__(self, type: str, horizon: float, *, diffusion: Optional[float] = ...,
                  bulk_modulus: Optional[float] = ..., constant: Optional[float] = ...,
-                 coefficients: Sequence[float] = ..., singularity: int = ..., width: float = ...,
-                 table: Sequence[Tuple[float, float]] = ...) -> None: ...
+                 coefficients: Sequence[float] = ..., singularity: int = ..., width: Optional[float] = ...,
+                 table: Union[None, str, "os.PathLike[str]", npt.ArrayLike] = ...) -> None: ...
     @property
     def horizon(self) -> float: ...
     @property
@@ -148,6 +149,7 @@ def check_arrays(nodes: npt.ArrayLike, volumes: npt.ArrayLike, i: npt.ArrayLike,
 def study_json(analysis: str, scene: str, set: Dict[str, Any], rules: Sequence[Rule], levels: int,
                folder: str = ..., angles: Sequence[float] = ...,
                directions: Sequence[Sequence[float]] = ...) -> str: ...
+def certify_json(scene: str, set: Dict[str, Any], reference_level: int) -> str: ...
 def moduli_json(names: str, rules: Sequence[Rule], m: Sequence[str], E: float, state: str,
                 kernel: str) -> str: ...
 def moduli_arrays(kernel: Kernel, w: npt.ArrayLike, xi: npt.ArrayLike, i: npt.ArrayLike,

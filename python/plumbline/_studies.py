@@ -197,3 +197,28 @@ def strip(scene, *, set=None, methods=None, levels=0):
     """
     text, changed, _ = _named(scene, set, methods)
     return _study(_core.study_json("strip", text, changed, [], levels))
+
+
+def certify(scene, *, set=None, methods=None, reference_level=0, file=None):
+    """Values of a static solution with error bounds, as `plumbline certify` computes them.
+
+    scene            as of run(): Study/regime = m with three mesh sizes, Reference/method,
+                     Output/points; a meshfree rule in Methods/names confirms the values
+    set, methods     as of run(); methods are names
+    reference_level  of Study/h at which the Galerkin method solves, from 1, the coarsest; 0: the
+                     finest
+    file             where the certificate is written, for grade(..., problem=file); None: nowhere
+
+    Returns a dict with the keys of certificate.json: "points" (dicts with "x", "value", "bound",
+    "other", "other_bound", "digits", ...), "mean", "size", "galerkin", "meshfree", "rules", ...
+    Raises NumericalError where nothing is certified.
+    """
+    text, changed, rules = _given(scene, set, methods)
+    if rules:
+        raise ValueError(f"methods: '{rules[0].name}' is a rule in Python, which no other program "
+                         "could repeat; give names of plumbline.methods()")
+    certificate = _core.certify_json(text, changed, reference_level)
+    if file is not None:
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(certificate)
+    return _to_arrays(json.loads(certificate))

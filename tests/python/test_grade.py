@@ -1,5 +1,7 @@
 """Grades are those of the command, from arrays."""
 import json
+import os
+import subprocess
 
 import numpy as np
 import pytest
@@ -99,3 +101,37 @@ def test_other_points_are_refused(file):
         plumbline.grade(points, values.T, vectors)
     with pytest.raises(plumbline.InputError, match="h must"):
         plumbline.grade(points, [values] * 3, vectors, h=[np.inf, .1, .05])
+
+
+SCENE = """
+set Kernel/type = constant
+set Problem/solution = sin(3*x)*cos(2*y)
+set Methods/names = PA-AC
+set Study/regime = m
+set Study/horizon = 0.25
+set Study/h = 1/8, 1/16, 1/32
+set Reference/method = Q2
+"""
+
+
+def test_a_scene_is_certified_as_by_the_command(root, tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("x,y\n0.1,0.2\n0.5,0.5\n0.31,0.73\n0.9,0.4\n")
+    scene = tmp_path / "scene.prm"
+    scene.write_text(SCENE + f"set Output/points = {points}\n")
+    file = tmp_path / "ours.json"
+    found = plumbline.certify(scene, reference_level=2, file=file)
+    for one in found["points"]:
+        exact = np.sin(3 * one["x"][0]) * np.cos(2 * one["x"][1])
+        assert abs(one["value"][0] - exact) <= one["bound"] < 1e-2
+    values = [one["value"][0] for one in found["points"]]
+    grade, = plumbline.grade([one["x"] for one in found["points"]], values, file)["grades"]
+    assert grade["is_at_least"]
+    if "PLUMBLINE_COMMAND" in os.environ:  # the same bytes
+        subprocess.run([os.environ["PLUMBLINE_COMMAND"], "certify", scene, "--reference-level", "2", "--quiet", "-o", tmp_path / "out"],
+                       check=True)
+        assert (tmp_path / "out" / "certificate.json").read_bytes() == file.read_bytes()
+    with pytest.raises(plumbline.NumericalError, match="nothing is certified"):
+        plumbline.certify(scene, methods=["GFD"], reference_level=2)
+    with pytest.raises(plumbline.InputError, match="Output/points"):
+        plumbline.certify(SCENE)
