@@ -91,7 +91,8 @@ namespace plumbline::report
                                           : "asymmetric by " + rounded(record["asymmetry"]));
       if (!record.text("reason").empty())
         text += ". Reason: " + record.text("reason");
-      return text + ".";
+      return text + ". This rests on one mesh size, h = " + rounded(record.key.h) +
+             ": run another Study/h to see how it depends on h.";
     }
 
     DataChart tip_chart(const Record &record, const analysis::Curve &samples)

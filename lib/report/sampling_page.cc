@@ -151,7 +151,7 @@ namespace plumbline::report
       if (!r.cheapest.empty())
       {
         const study::CheapestPair &pair = r.cheapest.back();
-        text += pair.method + " at h = " + rounded(pair.h) + " with count " +
+        text += mean_words(r) + pair.method + " at h = " + rounded(pair.h) + " with count " +
                 std::to_string(pair.count) + words_of_modes(r, pair.n_modes) +
                 " is the cheapest choice with a relative " + (is_own(r) ? "difference" : "error") +
                 " of the mean below " + short_power(pair.target) + ": error at most " +
