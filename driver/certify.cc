@@ -12,6 +12,7 @@
 #include "io/output_folder.h"
 #include "io/point_values.h"
 #include "report/certificate_text.h"
+#include "scene/on_line.h"
 #include "study/preflight.h"
 
 #include <iostream>
