@@ -161,8 +161,8 @@ TEST(CrackCommand, refuses_what_is_no_notched_strip)
   expect_refused(set("Crack/load=50"), "bonds soften everywhere");
   expect_refused(set("Crack/samples=2"), "Crack/samples = '2' is not allowed");
   expect_refused(set("Time/final time=-1"), "Time/final time = -1");
-  expect_refused(set("Time/final time=0"), "needs Time/final time > 0");
-  expect_refused(set("Time/density=-1"), "Time/density = -1 must be positive");
+  expect_refused(set("Time/final time=0"), "this is missing: Time/final time (the duration)");
+  expect_refused(set("Time/density=-1' --set 'Material/c=1"), "Time/density = -1 must be positive");
   expect_refused(set("Time/steps=0"), "Time/steps = 0 must be positive");
   expect_refused(set("Time/steps=0.2") + " --set Study/h=0.0125",
                  "longer than the critical step 0.0473");
