@@ -7,6 +7,7 @@
 #include "reference/lattice/stencil.h"
 #include "reference/method.h"
 #include "scene/problem.h"
+#include "study/motion_estimate.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 
@@ -373,7 +374,11 @@ TEST(PolygonalBall, is_no_reference_and_has_no_error_estimate)
   settings.push_back({"Reference/estimate", "every"});
   const scene::Scene scene = scene_of("Q1, Q1+polygon8", settings);
   const auto is_estimated = [&](const std::string &name)
-  { return study::is_estimated(scene, *study::find_method(methods(), name, "test")); };
+  {
+    const auto method = study::find_method(methods(), name, "test");
+    EXPECT_EQ(study::wants_estimate(scene, *method), study::is_estimated(scene, *method));
+    return study::is_estimated(scene, *method);
+  };
   EXPECT_TRUE(is_estimated("Q1"));
   EXPECT_FALSE(is_estimated("Q1+polygon8"));
 }
