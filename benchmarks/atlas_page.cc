@@ -6,8 +6,8 @@
 #include "templates.h"
 
 #include "base/error.h"
-#include "report/charts.h"
 #include "report/page_parts.h"
+#include "report/statics_view.h"
 
 #include <nlohmann/json.hpp>
 
@@ -167,14 +167,11 @@ namespace plumbline::atlas
     {
       const std::string folder = entry.folder.generic_string();
       Data pictures = Data::array(), all = Data::array();
-      std::map<report::ChartKind, bool> is_shown;
-      for (const report::Chart &chart : report::list_charts(entry.results))
-        if ((chart.kind == report::ChartKind::work_precision ||
-             chart.kind == report::ChartKind::memory || chart.kind == report::ChartKind::pairs) &&
-            chart.problem == report::telling_problem(entry.results) &&
-            !std::exchange(is_shown[chart.kind], true))
-          pictures.push_back(
-              {{"title", chart.title}, {"file", folder + "/charts/" + chart.name + ".svg"}});
+      for (const report::Gallery &gallery : report::statics_galleries(entry.results))
+        if ((gallery.id == "work" || gallery.id == "memory" || gallery.id == "pairs") &&
+            !gallery.charts.empty()) // the first is of the telling problem
+          pictures.push_back({{"title", gallery.charts.front().plot.title},
+                              {"file", folder + "/charts/" + gallery.charts.front().plot.file}});
       for (const report::Case &one : report::cases(entry.results))
         all.push_back(
             {{"title", one.title()}, {"cells", cells({&entry.results, one.problem, one.series})}});

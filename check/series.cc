@@ -5,8 +5,8 @@
 #include "check/files.h"
 #include "check/text.h"
 #include "io/results_json.h"
-#include "report/report.h"
 #include "report/text_table.h"
+#include "report/view.h"
 #include "scene/values.h"
 #include "study/conclusions.h"
 #include "study/solution_record.h"
@@ -260,6 +260,6 @@ namespace plumbline::check
       write_check(found.levels[k], required, files.inputs[k], exit_code(found.levels[k], required),
                   own);
     }
-    report::write_report(found.results, folder);
+    report::write_study(report::statics_view(found.results), found.results, folder);
   }
 } // namespace plumbline::check

@@ -123,8 +123,6 @@ namespace plumbline::driver
 
     void write_pages(const Task &task, const study::StudyResults &results, const fs::path &folder)
     {
-      if (task.write)
-        return task.write(results, folder);
       tell_warnings(results);
       report::write_study(task.view(results), results, folder);
     }
@@ -135,14 +133,12 @@ namespace plumbline::driver
     {
       if (options.json)
         std::cout << io::to_json(results);
-      else if (!options.quiet && task.summary)
-      {
-        std::cout << task.summary(results, folder);
-        tell_warnings(results);
-      }
       else if (!options.quiet)
-        std::cout << report::study_summary(task.view(results), results,
-                                           (folder / (task.analysis.name + ".html")).string());
+      {
+        const report::View view = task.view(results);
+        const std::string page = view.files.page.empty() ? task.analysis.name : view.files.page;
+        std::cout << report::study_summary(view, results, (folder / (page + ".html")).string());
+      }
       if (!results.is_complete)
         say_interrupted(folder, task.goes_on);
       if (!task.analysis.are_failures_findings)

@@ -21,11 +21,6 @@ namespace plumbline::driver
     study::Analysis analysis;
     report::View (*view)(const study::StudyResults &) = report::default_view;
     std::string command = analysis.name; ///< whose files they are
-    /// Pages and files of results, and what is printed of them; empty: as the view.
-    std::function<void(const study::StudyResults &, const std::filesystem::path &folder)> write =
-        {};
-    std::function<std::string(const study::StudyResults &, const std::filesystem::path &folder)>
-        summary = {};
     std::string file = analysis.name; ///< the stem of its journal and numbers
     bool goes_on = true;              ///< from what an interrupted command has left
     /// Receives these earlier results, on the first rank.

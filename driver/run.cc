@@ -14,8 +14,7 @@
 #include "report/frames.h"
 #include "report/memory_text.h"
 #include "report/pdf.h"
-#include "report/report.h"
-#include "report/statics_summary.h"
+#include "report/view.h"
 #include "scene/capabilities.h"
 #include "study/memory_estimate.h"
 #include "study/preflight.h"
@@ -89,14 +88,13 @@ namespace plumbline::driver
       // every rank runs the scene, and they share the work on meshes
       const base::Communicator communicator = base::Communicator::all();
       Task task{study::statics_analysis(all_methods(),
-                                        statics_options(scene, folder, communicator, points))};
+                                        statics_options(scene, folder, communicator, points)),
+                report::statics_view};
       task.command = "run";
       task.file = "results";
       if (points.is_wanted())
         task.take_over = [folder, &points](const study::StudyResults &earlier)
         { points.take_over(earlier, folder / "points"); };
-      task.write = report::write_report;
-      task.summary = report::statics_summary;
       task.ranks = communicator;
       // comparisons with the method's own finest level need all solutions
       task.goes_on = scene.study.decisive_error.target != scene::Target::finest;
@@ -251,7 +249,7 @@ namespace plumbline::driver
     const study::StudyResults results = io::results_in(folder);
     const io::OutputFolder output(folder, {"run", results.scene_name, results.scene_text, note},
                                   base::Communicator::alone());
-    report::write_report(results, folder);
+    report::write_study(report::statics_view(results), results, folder);
     if (is_pdf)
       report::draw_pdf(folder);
     std::cout << "report: " << (fs::path(folder) / "report.html").string() << '\n';

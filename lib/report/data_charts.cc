@@ -6,6 +6,19 @@
 
 namespace plumbline::report
 {
+  Style style_of(const std::vector<MethodName> &methods, const std::string &name)
+  {
+    unsigned int n_of_family[2] = {0, 0};
+    for (const MethodName &method : methods)
+    {
+      unsigned int &n = n_of_family[method.is_reference() ? 1 : 0];
+      if (method.name == name)
+        return style_of(n, method.is_reference());
+      ++n;
+    }
+    return style_of(0, false);
+  }
+
   DataChart named(const std::string &name, const std::string &title, const std::string &caption)
   {
     DataChart chart;
@@ -60,6 +73,7 @@ namespace plumbline::report
     std::vector<std::string> pictures;
     for (const DataChart &chart : charts)
     {
+      std::filesystem::remove(folder / chart.plot.file); // no old picture beside new data
       write_file(folder / (chart.name + ".csv"), to_csv(chart.data));
       plots.push_back(chart.plot);
       pictures.push_back(chart.plot.file);

@@ -2,6 +2,7 @@
 
 #include "report/formats.h"
 #include "report/plot.h"
+#include "report/selection.h"
 
 #include <filesystem>
 #include <functional>
@@ -17,6 +18,9 @@ namespace plumbline::report
     Plot plot;
     Table data;
   };
+
+  /// The same style for a method in every chart.
+  Style style_of(const std::vector<MethodName> &methods, const std::string &name);
 
   /// An empty one whose picture is NAME.svg.
   DataChart named(const std::string &name, const std::string &title,

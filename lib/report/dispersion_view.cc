@@ -1,4 +1,3 @@
-#include "report/charts.h"
 #include "report/counted.h"
 #include "report/text_table.h"
 #include "report/view.h"
@@ -28,6 +27,13 @@ namespace plumbline::report
                                                     : "";
     }
 
+    const char *rating(const study::Trend &trend)
+    {
+      return trend.outcome == study::Outcome::converges   ? "converges"
+             : trend.outcome == study::Outcome::undecided ? "undecided"
+                                                          : "stalls";
+    }
+
     Table verdicts(const StudyResults &results)
     {
       Table table;
@@ -42,15 +48,9 @@ namespace plumbline::report
              known(!t.values.empty(), error_cell(t.values.empty() ? 0 : t.values.back())),
              known(is_judged, rate_cell(study::last_rate(t))),
              text_cell(t.reason + (t.proof.reason.empty() ? "" : "; proof: " + t.proof.reason))});
+        table.rows.back()[2].look = rating(t);
       }
       return without_empty_columns(table);
-    }
-
-    const char *rating(const study::Trend &trend)
-    {
-      return trend.outcome == study::Outcome::converges   ? "converges"
-             : trend.outcome == study::Outcome::undecided ? "undecided"
-                                                          : "stalls";
     }
 
     /// The names of scalars that end so, without the end.
@@ -250,8 +250,6 @@ namespace plumbline::report
                                        [&, name = std::string(outcome)](const study::Trend &t)
                                        { return name == rating(t); })) +
           word);
-    for (const study::Trend &t : results.trends)
-      view.ratings.emplace_back(rating(t));
     view.parts = {long_waves(results), levels(results),
                   failures(results, "Levels without results", "reason")};
     view.galleries = {

@@ -258,7 +258,8 @@ namespace plumbline::report
     std::string rule;
     for (std::size_t j = 0; j < table.columns.size(); ++j)
     {
-      text += "| " + clean(table.columns[j].head) + " ";
+      const Column &column = table.columns[j];
+      text += "| " + clean(column.group + (column.group.empty() ? "" : ", ") + column.head) + " ";
       rule += !table.rows.empty() && table.rows.front()[j].is_number ? "|---:" : "|:---";
     }
     text += "|\n" + rule + "|\n";

@@ -47,6 +47,12 @@ namespace plumbline::report
     std::vector<std::string> csv;
     std::string text;
     bool is_number = false;
+    // on pages alone
+    std::string look = {};               ///< class, e.g. "converges"
+    bool is_strong = false;              ///< its text
+    std::string marker = {};             ///< HTML before the text, see page::marker
+    std::vector<std::string> notes = {}; ///< in small letters after it
+    std::string hint = {};               ///< shown where the pointer rests
   };
 
   Cell text_cell(const std::string &text);
@@ -69,6 +75,7 @@ namespace plumbline::report
     }
     std::string head;
     std::vector<std::string> csv;
+    std::string group = {}; ///< head of neighbours together, above their own
   };
 
   /// Rows all have columns.size() cells.
@@ -79,12 +86,24 @@ namespace plumbline::report
     std::vector<std::vector<Cell>> rows;
   };
 
-  /// A table under a heading, with words below it; `id` for links.
+  /// How a part stands on a page: as a section, or folded into the section before it.
+  enum class Fold
+  {
+    none,
+    open,
+    closed
+  };
+
+  /// A table under a heading, with words around it; `id` for links.
   struct Part
   {
-    std::string id, head, words;
-    Table table;
-    bool is_detail = false; ///< not for the terminal
+    std::string id, head, words; ///< words: below the table
+    Table table = {};            ///< without columns: a section of words
+    bool is_detail = false;      ///< not for the terminal
+    Fold fold = Fold::none;
+    std::string lead = {};   ///< words above the table
+    bool is_warning = false; ///< they are
+    std::string file = {};   ///< of the table, without ending; empty: ID_table
   };
 
   std::string to_csv(const Table &table);      ///< unrounded, heads in the first line

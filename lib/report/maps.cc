@@ -1,6 +1,6 @@
 #include "report/maps.h"
 
-#include "report/charts.h"
+#include "report/data_charts.h"
 #include "report/plot.h"
 #include "report/small_multiples.h"
 

@@ -80,14 +80,24 @@ namespace plumbline::report::page
   Data begin(const std::string &page, const std::string &scene_name, const std::string &purpose,
              const std::vector<std::string> &facts)
   {
-    return {{"page", page}, {"name", scene_name}, {"purpose", purpose}, {"facts", facts}};
+    return {{"page", page},  {"name", scene_name},  {"purpose", purpose}, {"facts", facts},
+            {"setting", ""}, {"is_partial", false}, {"nav", Data()}};
   }
 
   Data table(const Table &table)
   {
     if (table.rows.empty())
       return {};
-    Data columns = Data::array(), rows = Data::array();
+    Data columns = Data::array(), rows = Data::array(), groups = Data::array();
+    bool has_groups = false;
+    for (const Column &column : table.columns)
+    {
+      has_groups = has_groups || !column.group.empty();
+      if (!groups.empty() && groups.back()["text"] == column.group)
+        groups.back()["n"] = groups.back()["n"].get<std::size_t>() + 1;
+      else
+        groups.push_back({{"text", column.group}, {"n", std::size_t(1)}});
+    }
     std::vector<bool> are_numbers; // a word in a column of numbers is aligned as they are
     for (std::size_t j = 0; j < table.columns.size(); ++j)
     {
@@ -98,11 +108,23 @@ namespace plumbline::report::page
     {
       Data cells = Data::array();
       for (std::size_t j = 0; j < row.size(); ++j)
-        cells.push_back({{"text", row[j].text}, {"is_number", row[j].is_number || are_numbers[j]}});
+      {
+        const Cell &cell = row[j];
+        const bool is_number = cell.is_number || are_numbers[j];
+        cells.push_back({{"text", cell.text},
+                         {"is_number", is_number},
+                         {"class", cell.look.empty() && is_number ? "n" : cell.look},
+                         {"is_strong", cell.is_strong},
+                         {"marker", cell.marker},
+                         {"notes", cell.notes},
+                         {"hint", cell.hint}});
+      }
       rows.push_back({{"cells", std::move(cells)}});
     }
-    return {
-        {"columns", std::move(columns)}, {"rows", std::move(rows)}, {"n_rows", table.rows.size()}};
+    return {{"columns", std::move(columns)},
+            {"rows", std::move(rows)},
+            {"groups", has_groups ? Data{{"heads", std::move(groups)}} : Data()},
+            {"style", ""}};
   }
 
   Data figure(const Figure &figure)
@@ -131,6 +153,11 @@ namespace plumbline::report::page
     return figures;
   }
 
+  std::string file_of(const Part &part)
+  {
+    return part.file.empty() ? part.id + "_table" : part.file;
+  }
+
   std::vector<Part> with_rows(std::vector<Part> parts)
   {
     parts.erase(std::remove_if(parts.begin(), parts.end(),
@@ -139,14 +166,47 @@ namespace plumbline::report::page
     return parts;
   }
 
-  Data parts(const std::vector<Part> &parts)
+  Data parts(const std::vector<Part> &parts, const std::string &folder)
   {
     Data list = Data::array();
     for (const Part &part : parts)
-      list.push_back({{"id", part.id},
-                      {"head", part.head},
-                      {"words", part.words},
-                      {"table", table(part.table)}});
+    {
+      const bool is_of_words = part.table.columns.empty() && !(part.lead + part.words).empty();
+      if (part.table.rows.empty() && !is_of_words)
+        continue;
+      Data data = {
+          {"id", part.id},
+          {"head", part.head},
+          {"lead", part.lead},
+          {"is_warning", part.is_warning},
+          {"table", table(part.table)},
+          {"words", part.words},
+          {"file", folder.empty() || is_of_words ? "" : folder + "/" + file_of(part) + ".csv"},
+          {"is_open", part.fold == Fold::open},
+          {"folds", Data::array()}};
+      if (part.fold == Fold::none || list.empty())
+        list.push_back(std::move(data));
+      else
+        list.back()["folds"].push_back(std::move(data));
+    }
     return list;
+  }
+
+  Data expectations(const study::StudyResults &results)
+  {
+    if (results.expectations.empty())
+      return {};
+    Data met = Data::array(), missed = Data::array();
+    for (const study::Expectation &one : results.expectations)
+      (one.holds ? met : missed)
+          .push_back({{"holds", one.holds},
+                      {"subject", one.subject},
+                      {"expected", one.expected},
+                      {"found", one.found}});
+    const auto rows = [](const Data &list) { return list.empty() ? Data() : Data{{"rows", list}}; };
+    return {{"n_hold", met.size()},
+            {"n", results.expectations.size()},
+            {"met", rows(met)},
+            {"missed", rows(missed)}};
   }
 } // namespace plumbline::report::page

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "report/charts.h"
 #include "report/data_charts.h"
 #include "report/template.h"
 
@@ -26,7 +25,7 @@ namespace plumbline::report::page
   /// The fact that results are not all that was asked for.
   inline constexpr const char *interrupted = "interrupted: what was finished";
 
-  /// For `begin`: what every page has.
+  /// For `begin`: what every page has; what stands there besides may be set afterwards.
   /// @param page  what it is, e.g. "strip"
   Data begin(const std::string &page, const std::string &scene_name, const std::string &purpose,
              const std::vector<std::string> &facts);
@@ -50,7 +49,17 @@ namespace plumbline::report::page
   Data charts(const std::vector<DataChart> &charts, const std::filesystem::path &dir,
               const std::string &folder);
 
-  /// For `part`.
+  /// How many of the scene's expectations hold; those that do not are shown, the others folded.
+  /// Null where there are none.
+  Data expectations(const study::StudyResults &results);
+
+  /// Of its table, without ending.
+  std::string file_of(const Part &part);
+
+  /// Those whose table has rows.
   std::vector<Part> with_rows(std::vector<Part> parts);
-  Data parts(const std::vector<Part> &parts);
+
+  /// For `part`: those with rows or with words alone.
+  /// @param folder  where write_study writes the tables; empty: they are in no files
+  Data parts(const std::vector<Part> &parts, const std::string &folder = {});
 } // namespace plumbline::report::page

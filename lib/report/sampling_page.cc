@@ -274,7 +274,7 @@ namespace plumbline::report
     end.emplace_back();
     add(verdict(r, {}), most_of_one);
     return summary(
-        heading(r.scene_name, r.purpose),
+        {heading(r.scene_name, r.purpose)},
         {{"", "", "", sampling_quantity_table(r)}, {"", "", "", sampling_field_table(r)}}, end);
   }
 

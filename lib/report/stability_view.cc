@@ -1,4 +1,3 @@
-#include "report/charts.h"
 #include "report/counted.h"
 #include "report/small_multiples.h"
 #include "report/text_table.h"
@@ -410,9 +409,6 @@ namespace plumbline::report
         "fall, no weight is negative, moments are independent, and bonds tie all nodes. "
         "conditionally stable: under the condition given. unstable: no condition on m = δ/h helps.";
     view.verdicts = verdict_table(results);
-    constexpr std::array classes = {"converges", "undecided", "stalls"};
-    for (const study::Verdict &v : results.verdicts)
-      view.ratings.emplace_back(classes[static_cast<std::size_t>(v.rating)]);
     view.facts = {counted(results.verdicts.size(), "method"),
                   counted(static_cast<std::size_t>(std::count_if(
                               results.records.begin(), results.records.end(),

@@ -1,4 +1,3 @@
-#include "report/charts.h"
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/stationary_crack.h"

@@ -1,4 +1,3 @@
-#include "report/statics_summary.h"
 #include "report/text_table.h"
 #include "report/view.h"
 
@@ -123,6 +122,24 @@ namespace plumbline::report
       return text;
     }
 
+    /// How many of the scene's expectations hold, after those that do not.
+    Lines expectation_lines(const StudyResults &results, std::size_t most)
+    {
+      Lines lines;
+      std::size_t n_missed = 0;
+      for (const study::Expectation &one : results.expectations)
+        if (!one.holds && ++n_missed <= most)
+          lines.push_back("not as expected: " + one.subject + ": expected " + one.expected +
+                          ", found " + one.found);
+      if (n_missed > most)
+        lines.push_back("not as expected: " + std::to_string(n_missed - most) +
+                        " more in the report");
+      if (!results.expectations.empty())
+        lines.push_back("expectations: " + std::to_string(results.expectations.size() - n_missed) +
+                        " of " + std::to_string(results.expectations.size()) + " hold");
+      return lines;
+    }
+
     std::string joined(const Lines &lines)
     {
       std::string text;
@@ -134,7 +151,11 @@ namespace plumbline::report
 
   std::string answer_of(const View &view)
   {
-    std::string answer = view.answer.empty() ? methods_by_verdict(view.verdicts) : view.answer;
+    std::string answer = view.answer;
+    for (const Statement &one : view.statements)
+      answer += (answer.empty() ? "" : " ") + one.words;
+    if (answer.empty())
+      answer = methods_by_verdict(view.verdicts);
     for (const Part &part : view.parts)
       if (answer.empty())
         answer = methods_by_verdict(part.table);
@@ -163,10 +184,12 @@ namespace plumbline::report
     return lines;
   }
 
-  std::string summary(const std::string &title, const std::vector<Part> &parts, const Lines &end)
+  std::string summary(const Lines &begin, const std::vector<Part> &parts, const Lines &end)
   {
     constexpr std::size_t n_lines = summary_lines, least_share = 9;
-    Lines lines = {fitted(title, n_columns)};
+    Lines lines;
+    for (const std::string &line : begin)
+      lines.push_back(fitted(line, n_columns));
     std::vector<Part> shown;
     for (const Part &part : page::with_rows(parts))
       if (!part.is_detail)
@@ -182,9 +205,10 @@ namespace plumbline::report
 
   std::string study_summary(const View &view, const StudyResults &results, const std::string &files)
   {
-    constexpr std::size_t most_verdicts = 9, most_words = 7, most_missed = 2;
-    Lines end;
-    if (!view.verdicts.rows.empty())
+    constexpr std::size_t most_verdicts = 9, most_words = 7, most_of_one = 3, most_missed = 2;
+    Lines begin = {heading(results.scene_name, results.purpose)}, end;
+    begin.insert(begin.end(), view.constants.begin(), view.constants.end());
+    if (!view.verdicts.rows.empty() && view.brief.empty())
       add_table("", view.verdicts, most_verdicts, end);
     end.emplace_back();
     if (const std::size_t n = results.left_out.size(); n > 0)
@@ -194,12 +218,19 @@ namespace plumbline::report
     for (const std::string &line : expectation_lines(results, most_missed))
       end.push_back(fitted(line, n_columns));
     end.push_back("report: " + files);
-    if (const std::string answer = answer_of(view); !answer.empty())
+    const auto say = [&](const std::string &text, std::size_t most)
     {
-      const Lines words = short_lines(answer, most_words);
-      end.emplace_back();
+      const Lines words = short_lines(text, most);
       end.insert(end.end(), words.begin(), words.end());
-    }
-    return summary(heading(results.scene_name, results.purpose), view.parts, end);
+    };
+    if (const std::string answer = answer_of(view); !answer.empty())
+      end.emplace_back();
+    if (view.statements.empty())
+      say(answer_of(view), most_words);
+    for (const Statement &one : view.statements)
+      say(one.words, most_of_one);
+    for (const std::string &one : view.advice)
+      end.push_back(fitted(one, n_columns));
+    return summary(begin, view.brief.empty() ? view.parts : view.brief, end);
   }
 } // namespace plumbline::report

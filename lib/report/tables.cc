@@ -1,7 +1,7 @@
 #include "report/tables.h"
 
-#include "report/energy_table.h"
 #include "report/text_table.h"
+#include "report/view.h"
 #include "study/solution_record.h"
 #include "study/trend.h"
 
@@ -14,6 +14,8 @@ namespace plumbline::report
 {
   namespace
   {
+    using study::Trend;
+
     /// Levels of a case over all methods, coarse to fine.
     struct Level
     {
@@ -70,16 +72,51 @@ namespace plumbline::report
       return low == high ? rounded(low) : rounded(low) + " to " + rounded(high);
     }
 
-    void write_table(const Table &table, const std::filesystem::path &stem)
+    const study::Key &place_of(const Record &run)
     {
-      const auto with = [&](const char *extension)
-      {
-        std::filesystem::path file = stem;
-        return file += extension; // not replace_extension: a series "m = 2.5" has a dot
-      };
-      write_file(with(".csv"), to_csv(table));
-      write_file(with(".md"), to_markdown(table));
-      write_file(with(".tex"), to_latex(table));
+      return run.key;
+    }
+    template <class Row>
+    const Row &place_of(const Row &row)
+    {
+      return row;
+    }
+
+    /// Method, problem and series, then others.
+    template <class Row>
+    std::vector<ColumnOf<Row>> of_case(std::vector<ColumnOf<Row>> others)
+    {
+      std::vector<ColumnOf<Row>> columns = {
+          {"method", [](const Row &row) { return text_cell(place_of(row).method); }},
+          {"problem", [](const Row &row) { return text_cell(place_of(row).problem); }},
+          {"series", [](const Row &row) { return text_cell(place_of(row).series); }}};
+      std::move(others.begin(), others.end(), std::back_inserter(columns));
+      return columns;
+    }
+
+    /// For tables with several rows of a run, or none: where it is, and more.
+    Table with_place(const std::vector<Column> &others)
+    {
+      Table table;
+      table.columns = {"method", "case", "series", "h [length]", "horizon [length]"};
+      table.columns.insert(table.columns.end(), others.begin(), others.end());
+      return table;
+    }
+    void add_row(Table &table, const Record &run, const std::vector<Cell> &others)
+    {
+      table.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
+                            text_cell(run.key.series), number_cell(run.key.h),
+                            number_cell(run.key.horizon)});
+      table.rows.back().insert(table.rows.back().end(), others.begin(), others.end());
+      table.rows.back().resize(table.columns.size(), empty_cell());
+    }
+
+    std::string joined(const std::vector<std::string> &list, const std::string &separator)
+    {
+      std::string text;
+      for (const std::string &item : list)
+        text += (text.empty() ? "" : separator) + item;
+      return text;
     }
   } // namespace
 
@@ -130,93 +167,83 @@ namespace plumbline::report
 
   Table trend_table(const study::StudyResults &results)
   {
-    Table table;
-    table.caption = "Verdicts on the error " + error_words(results.decisive_error) +
-                    ": fitted rate, and plateau a of e = a + b x^p";
-    table.columns = {"method",
-                     "problem",
-                     "series",
-                     {"rate", {"rate", "rate uncertainty"}},
-                     {"plateau", {"plateau", "plateau uncertainty"}},
-                     "verdict",
-                     "reason"};
+    std::vector<Trend> decisive;
     for (const MethodName &method : methods(results))
       for (const Case &one : cases(results))
-        if (const study::Trend *trend = decisive_trend(results, method.name, one))
-          table.rows.push_back({text_cell(trend->method), text_cell(trend->problem),
-                                text_cell(trend->series), fitted_rate(*trend),
-                                fitted_plateau(*trend), text_cell(verdict_words(*trend)),
-                                text_cell(trend->reason)});
+        if (const Trend *trend = decisive_trend(results, method.name, one))
+          decisive.push_back(*trend);
+    Table table = table_of(
+        decisive,
+        of_case<Trend>({{{"rate", {"rate", "rate uncertainty"}}, fitted_rate},
+                        {{"plateau", {"plateau", "plateau uncertainty"}}, fitted_plateau},
+                        {"verdict", [](const Trend &t) { return text_cell(verdict_words(t)); }},
+                        {"reason", [](const Trend &t) { return text_cell(t.reason); }}}));
+    table.caption = "Verdicts on the error " + error_words(results.decisive_error) +
+                    ": fitted rate, and plateau a of e = a + b x^p";
     return table;
   }
 
   Table cost_table(const study::StudyResults &results)
   {
-    Table table;
+    const auto timed = [](double (*value)(const Record &))
+    {
+      return [=](const Record &run)
+      { return known(run.cost.seconds() > 0, number_cell(value(run))); };
+    };
+    Table table = table_of(
+        results,
+        of_case<Record>(
+            {{"h", [](const Record &run) { return number_cell(run.key.h); }},
+             {"unknowns", [](const Record &run) { return count_cell(run.cost.n_unknowns); }},
+             {"bonds", [](const Record &run) { return count_cell(run.cost.n_bonds); }},
+             {"geometry CPU s", timed(study::geometry_seconds)},
+             {"setup CPU s", timed([](const Record &run) { return run.cost.setup_seconds; })},
+             {"solve CPU s", timed([](const Record &run) { return run.cost.solve_seconds; })},
+             {"peak MB", timed([](const Record &run)
+                               { return 1e-6 * static_cast<double>(run.cost.peak_bytes); })},
+             {"iterations", [](const Record &run) { return count_cell(run.cost.n_iterations); }}}),
+        [](const Record &run) { return run.failure.empty(); });
     table.caption = "Cost of each run; CPU seconds are summed over threads";
-    table.columns = {"method",      "problem", "series",         "h",
-                     "unknowns",    "bonds",   "geometry CPU s", "setup CPU s",
-                     "solve CPU s", "peak MB", "iterations"};
-    for (const study::Record &run : results.records)
-      if (run.failure.empty())
-      {
-        const bool is_timed = run.cost.seconds() > 0;
-        table.rows.push_back(
-            {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
-             number_cell(run.key.h), count_cell(run.cost.n_unknowns), count_cell(run.cost.n_bonds),
-             known(is_timed, number_cell(study::geometry_seconds(run))),
-             known(is_timed, number_cell(run.cost.setup_seconds)),
-             known(is_timed, number_cell(run.cost.solve_seconds)),
-             known(is_timed, number_cell(1e-6 * static_cast<double>(run.cost.peak_bytes))),
-             count_cell(run.cost.n_iterations)});
-      }
-    return without_empty_columns(table);
+    return table;
   }
 
   Table other_errors_table(const study::StudyResults &results)
   {
-    Table table;
-    table.columns = {"method", "problem", "series", "error", "finest value", "rate", "verdict"};
-    for (const study::Trend &trend : results.trends)
-      if (trend.error != results.decisive_error)
-        table.rows.push_back(
-            {text_cell(trend.method), text_cell(trend.problem), text_cell(trend.series),
-             text_cell(error_words(trend.error)),
-             error_cell(trend.values.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                             : trend.values.back()),
-             fitted_rate(trend), text_cell(verdict_words(trend))});
-    return table;
+    std::vector<Trend> others;
+    std::copy_if(results.trends.begin(), results.trends.end(), std::back_inserter(others),
+                 [&](const Trend &trend) { return trend.error != results.decisive_error; });
+    return table_of(
+        others,
+        of_case<Trend>({{"error", [](const Trend &t) { return text_cell(error_words(t.error)); }},
+                        {"finest value", [](const Trend &t)
+                         { return error_cell(t.values.empty() ? NAN : t.values.back()); }},
+                        {"rate", fitted_rate},
+                        {"verdict", [](const Trend &t) { return text_cell(verdict_words(t)); }}}));
   }
 
   Table estimate_table(const std::vector<study::ErrorEstimate> &estimates)
   {
-    Table table;
+    using Estimate = study::ErrorEstimate;
+    std::vector<Estimate> asked; // of others there is none
+    std::copy_if(estimates.begin(), estimates.end(), std::back_inserter(asked),
+                 [](const Estimate &e) { return e.estimate > 0; });
+    Table table = table_of(
+        asked,
+        of_case<Estimate>(
+            {{"level", [](const Estimate &e) { return count_cell(e.level); }},
+             {"h", [](const Estimate &e) { return number_cell(e.h); }},
+             {"δ", [](const Estimate &e) { return number_cell(e.horizon); }},
+             {"change with h", [](const Estimate &e) { return error_cell(e.h_change); }},
+             {"before", [](const Estimate &e) { return error_cell(e.coarse_change); }},
+             {"rate", [](const Estimate &e) { return number_cell(e.rate); }},
+             {"change to p + 1", [](const Estimate &e) { return error_cell(e.p_change); }},
+             {"outer quadrature", [](const Estimate &e) { return error_cell(e.outer_change); }},
+             {"estimate, averages", [](const Estimate &e) { return error_cell(e.estimate); }},
+             {"certified digits", [](const Estimate &e) { return count_cell(e.certified_digits); }},
+             {"estimate, field", [](const Estimate &e) { return error_cell(e.field_estimate); }},
+             {"domain", [](const Estimate &e)
+              { return text_cell(e.is_of_polygon ? "the polygon alone" : "as described"); }}}));
     table.caption = "Error estimates";
-    table.columns = {"method",
-                     "problem",
-                     "series",
-                     "level",
-                     "h",
-                     "δ",
-                     "change with h",
-                     "before",
-                     "rate",
-                     "change to p + 1",
-                     "outer quadrature",
-                     "estimate, averages",
-                     "certified digits",
-                     "estimate, field",
-                     "domain"};
-    for (const study::ErrorEstimate &estimate : estimates)
-      if (estimate.estimate > 0) // else none was asked for
-        table.rows.push_back(
-            {text_cell(estimate.method), text_cell(estimate.problem), text_cell(estimate.series),
-             count_cell(estimate.level), number_cell(estimate.h), number_cell(estimate.horizon),
-             error_cell(estimate.h_change), error_cell(estimate.coarse_change),
-             number_cell(estimate.rate), error_cell(estimate.p_change),
-             error_cell(estimate.outer_change), error_cell(estimate.estimate),
-             count_cell(estimate.certified_digits), error_cell(estimate.field_estimate),
-             text_cell(estimate.is_of_polygon ? "the polygon alone" : "as described")});
     return table;
   }
 
@@ -226,7 +253,7 @@ namespace plumbline::report
     table.columns = {"method",     "problem", "series",   "level",
                      "difference", "value",   "estimate", "value / estimate"};
     for (const study::ErrorEstimate &estimate : results.references)
-      for (const study::Record &run : results.records)
+      for (const Record &run : results.records)
         if (run.key.problem == estimate.problem && run.key.series == estimate.series &&
             run.key.level == estimate.level && run.key.method != estimate.method &&
             run.failure.empty())
@@ -254,7 +281,7 @@ namespace plumbline::report
         if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end())
           list.push_back(text);
       };
-      for (const study::Record &run : results.records)
+      for (const Record &run : results.records)
         if (run.key.method == method.name && run.failure.empty())
         {
           const double n_neighbours = run.has("neighbours") ? run["neighbours"] : 0;
@@ -269,46 +296,33 @@ namespace plumbline::report
         }
       if (fewest > most)
         continue; // no run came through
-      const auto join = [](const std::vector<std::string> &list, const std::string &separator)
-      {
-        std::string text;
-        for (const std::string &item : list)
-          text += (text.empty() ? "" : separator) + item;
-        return text;
-      };
       table.rows.push_back({text_cell(method.name),
                             text_cell(base::word(method.family)),
                             {{span(fewest, most)}, span(fewest, most), true},
                             number_cell(ratio),
                             count_cell(n_negative),
                             error_cell(residual),
-                            text_cell(join(backends, ", ")),
-                            text_cell(join(notes, "; "))});
+                            text_cell(joined(backends, ", ")),
+                            text_cell(joined(notes, "; "))});
     }
     return table;
   }
 
   Table tip_force_table(const study::StudyResults &results)
   {
-    Table table;
-    table.columns = {"method", "case",  "series",    "h [length]",        "horizon [length]",
-                     "tip x",  "tip y", "F [force]", "F / sqrt(horizon)", "sum of norms"};
-    for (const study::Record &run : results.records)
+    Table table = with_place({"tip x", "tip y", "F [force]", "F / sqrt(horizon)", "sum of norms"});
+    for (const Record &run : results.records)
       for (const method::TipForce &one : study::tip_forces_of(run))
-        table.rows.push_back({text_cell(run.key.method), text_cell(run.key.problem),
-                              text_cell(run.key.series), number_cell(run.key.h),
-                              number_cell(run.key.horizon), number_cell(one.tip[0]),
-                              number_cell(one.tip[1]), error_cell(one.norm),
-                              error_cell(one.over_root), error_cell(one.sum_of_norms)});
+        add_row(table, run,
+                {number_cell(one.tip[0]), number_cell(one.tip[1]), error_cell(one.norm),
+                 error_cell(one.over_root), error_cell(one.sum_of_norms)});
     return table;
   }
 
   Table bound_table(const study::StudyResults &results)
   {
-    Table table;
-    table.columns = {"method", "case",  "series", "h [length]",  "horizon [length]",
-                     "error",  "‖A⁻¹‖", "bound",  "nodal error", "error / bound"};
-    for (const study::Record &run : results.records)
+    Table table = with_place({"error", "‖A⁻¹‖", "bound", "nodal error", "error / bound"});
+    for (const Record &run : results.records)
       for (const auto &[name, bound] : study::errors_of(run))
         if (study::is_bound(name))
         {
@@ -316,69 +330,73 @@ namespace plumbline::report
           const bool is_largest = study::norm_of_one(name, 4) == 1;
           const bool is_known = run.has(nodal),
                      is_round_off = !(bound > study::round_off_of(run, name));
-          table.rows.push_back(
-              {text_cell(run.key.method), text_cell(run.key.problem), text_cell(run.key.series),
-               number_cell(run.key.h), number_cell(run.key.horizon), text_cell(error_words(nodal)),
-               number_cell(is_largest ? run["inverse norm"] : 1 / run["smallest eigenvalue"]),
-               error_cell(bound), is_known ? error_cell(run[nodal]) : empty_cell(),
-               is_known && !is_round_off ? number_cell(run[nodal] / bound) : empty_cell()});
+          add_row(table, run,
+                  {text_cell(error_words(nodal)),
+                   number_cell(is_largest ? run["inverse norm"] : 1 / run["smallest eigenvalue"]),
+                   error_cell(bound), known(is_known, error_cell(run[nodal])),
+                   known(is_known && !is_round_off, number_cell(run[nodal] / bound))});
         }
+    return table;
+  }
+
+  Table energy_table(const study::StudyResults &results)
+  {
+    Table table =
+        with_place({"target", "energy", "energy of the target", "energy / energy of the target - 1",
+                    "error in the energy norm", "relative"});
+    for (const Record &run : results.records)
+    {
+      if (!run.has("energy"))
+        continue;
+      bool has_target = false;
+      for (const std::string target : {"exact", "local"})
+      {
+        const std::string of_target = "energy of " + target, name = "energy | " + target;
+        if (!run.has(of_target))
+          continue;
+        has_target = true;
+        const double size = study::size_of(run, name);
+        add_row(table, run,
+                {text_cell(target), number_cell(run["energy"]), number_cell(run[of_target]),
+                 known(run[of_target] != 0, error_cell(run["energy"] / run[of_target] - 1)),
+                 run.has(name) ? error_cell(run[name]) : text_cell("none: not positive definite"),
+                 known(run.has(name) && size > 0, error_cell(run[name] / size))});
+      }
+      if (!has_target)
+        add_row(table, run, {text_cell(""), number_cell(run["energy"])});
+    }
     return table;
   }
 
   Table saving_table(const study::StudyResults &results)
   {
-    Table table;
-    table.caption = "What the smallest model saved";
-    table.columns = {"method", "h [length]",   "CPU time", "full",
-                     "times",  "pairs summed", "full",     "largest difference"};
-    for (const study::Saving &saving : results.savings)
-      table.rows.push_back({text_cell(saving.method), number_cell(saving.h),
-                            text_cell(rounded_seconds(saving.smallest.seconds())),
-                            text_cell(rounded_seconds(saving.full.seconds())),
-                            text_cell(rounded(saving.full.seconds() / saving.smallest.seconds())),
-                            count_cell(saving.smallest.n_bonds), count_cell(saving.full.n_bonds),
-                            error_cell(saving.difference)});
-    return table;
+    using study::Saving;
+    return table_of(
+        results.savings,
+        std::vector<ColumnOf<Saving>>{
+            {"method", [](const Saving &s) { return text_cell(s.method); }},
+            {"h [length]", [](const Saving &s) { return number_cell(s.h); }},
+            {"CPU time",
+             [](const Saving &s) { return text_cell(rounded_seconds(s.smallest.seconds())); }},
+            {"full", [](const Saving &s) { return text_cell(rounded_seconds(s.full.seconds())); }},
+            {"times", [](const Saving &s)
+             { return text_cell(rounded(s.full.seconds() / s.smallest.seconds())); }},
+            {"pairs summed", [](const Saving &s) { return count_cell(s.smallest.n_bonds); }},
+            {"full", [](const Saving &s) { return count_cell(s.full.n_bonds); }},
+            {"largest difference", [](const Saving &s) { return error_cell(s.difference); }}});
   }
 
   Table failure_table(const study::StudyResults &results)
   {
-    Table table;
-    table.columns = {"method", "problem", "series", "level", "h", "δ"};
-    if (!results.variable.empty())
-      table.columns.emplace_back(results.variable);
-    table.columns.emplace_back("why");
-    for (const study::Record &run : results.records)
-      if (!run.failure.empty())
-      {
-        std::vector<Cell> row = {text_cell(run.key.method), text_cell(run.key.problem),
-                                 text_cell(run.key.series), count_cell(run.key.level),
-                                 number_cell(run.key.h),    number_cell(run.key.horizon)};
-        if (!results.variable.empty())
-          row.push_back(number_cell(run.key.value));
-        row.push_back(text_cell(run.failure));
-        table.rows.push_back(std::move(row));
-      }
-    return table;
-  }
-
-  void write_tables(const study::StudyResults &results, const std::filesystem::path &dir)
-  {
-    const std::filesystem::path folder = dir / "tables";
-    for (const Case &one : cases(results))
-      write_table(error_table(results, one), folder / ("errors_" + one.slug));
-    write_table(trend_table(results), folder / "verdicts");
-    write_table(cost_table(results), folder / "cost");
-    auto estimates = results.references;
-    estimates.insert(estimates.end(), results.estimates.begin(), results.estimates.end());
-    if (const Table table = estimate_table(estimates); !table.rows.empty())
-      write_table(table, folder / "estimates");
-    if (const Table tips = tip_force_table(results); !tips.rows.empty())
-      write_table(tips, folder / "tip_forces");
-    if (const Table bounds = bound_table(results); !bounds.rows.empty())
-      write_table(bounds, folder / "bounds");
-    if (const Table energies = energy_table(results); !energies.rows.empty())
-      write_table(energies, folder / "energies");
+    const bool varies = !results.variable.empty();
+    return table_of(
+        results,
+        of_case<Record>({{"level", [](const Record &run) { return count_cell(run.key.level); }},
+                         {"h", [](const Record &run) { return number_cell(run.key.h); }},
+                         {"δ", [](const Record &run) { return number_cell(run.key.horizon); }},
+                         {results.variable, [=](const Record &run)
+                          { return known(varies, number_cell(run.key.value)); }},
+                         {"why", [](const Record &run) { return text_cell(run.failure); }}}),
+        [](const Record &run) { return !run.failure.empty(); });
   }
 } // namespace plumbline::report

@@ -3,8 +3,6 @@
 #include "report/formats.h"
 #include "report/selection.h"
 
-#include <filesystem>
-
 namespace plumbline::report
 {
   /// Rows: levels with h, horizon and m = horizon / h. Columns: of each method the decisive
@@ -41,13 +39,12 @@ namespace plumbline::report
   /// study/truncation.h.
   Table bound_table(const study::StudyResults &results);
 
+  /// Energies of solutions and of what they are compared with, see study/energy.h.
+  Table energy_table(const study::StudyResults &results);
+
   /// What the smallest model saved, where the full one was solved too.
   Table saving_table(const study::StudyResults &results);
 
   /// The runs without a solution, and why.
   Table failure_table(const study::StudyResults &results);
-
-  /// Write dir/tables: errors_CASE, verdicts and cost, each as .csv (unrounded), .md and .tex.
-  /// @throws InputError  dir cannot be written
-  void write_tables(const study::StudyResults &results, const std::filesystem::path &dir);
 } // namespace plumbline::report

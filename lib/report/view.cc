@@ -3,7 +3,6 @@
 #include "io/results_json.h"
 #include "report/damage_maps.h"
 #include "report/equation.h"
-#include "report/report_parts.h"
 #include "report/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -85,17 +84,16 @@ namespace plumbline::report
   Table table_of(const StudyResults &results, const std::vector<RecordColumn> &columns,
                  const IsShown &is_shown)
   {
-    Table table;
-    for (const RecordColumn &column : columns)
-      table.columns.emplace_back(column.head);
-    for (const Record &record : results.records)
-      if (is_shown(record))
-      {
-        table.rows.emplace_back();
-        for (const RecordColumn &column : columns)
-          table.rows.back().push_back(column.cell(record));
-      }
-    return without_empty_columns(table);
+    std::vector<std::reference_wrapper<const Record>> shown;
+    std::copy_if(results.records.begin(), results.records.end(), std::back_inserter(shown),
+                 is_shown);
+    return without_empty_columns(table_of(shown, columns));
+  }
+
+  std::string look_of(study::Rating rating)
+  {
+    constexpr std::array names = {"converges", "undecided", "stalls"};
+    return names[static_cast<std::size_t>(rating)];
   }
 
   Part failures(const StudyResults &results, const std::string &title, const std::string &head,
@@ -143,9 +141,12 @@ namespace plumbline::report
     Table table;
     table.columns = {"method", "series", "verdict", "condition", "explanation"};
     for (const study::Verdict &v : results.verdicts)
+    {
       table.rows.push_back(
           {text_cell(v.method), known(!v.series.empty(), text_cell(v.series)), text_cell(v.verdict),
            known(!v.condition.empty(), text_cell(v.condition)), text_cell(v.explanation)});
+      table.rows.back()[2].look = look_of(v.rating);
+    }
     return without_empty_columns(table);
   }
 
@@ -313,30 +314,94 @@ namespace plumbline::report
 
   namespace
   {
-    constexpr std::array classes = {"converges", "undecided", "stalls"}; // of ratings, on pages
-    constexpr std::array signs = {"✓", "?", "✗"};
+    constexpr std::array signs = {"✓", "?", "✗"}; // of ratings
+
+    /// So many charts or cards are seen at one glance; more are folded.
+    constexpr std::size_t at_a_glance = 6;
+
+    FileNames files_of(const View &view, const StudyResults &results)
+    {
+      FileNames names = view.files;
+      for (std::string *const one : {&names.page, &names.numbers, &names.tables, &names.charts})
+        if (one->empty())
+          *one = results.analysis;
+      return names;
+    }
 
     Data page_verdicts(const View &view)
     {
-      if (view.verdicts.rows.empty())
-        return {};
-      Data table = page::table(view.verdicts);
-      for (std::size_t i = 0; i < view.verdicts.rows.size(); ++i)
-        for (std::size_t j = 0; j < view.verdicts.columns.size(); ++j)
-        {
-          const std::string &head = view.verdicts.columns[j].head;
-          table["rows"][i]["cells"][j]["look"] = head == view.verdicts.columns[0].head ? "method"
-                                                 : head == "verdict" && i < view.ratings.size()
-                                                     ? view.ratings[i]
-                                                     : "";
-        }
-      table["question"] = view.question;
-      table["words"] = view.words;
-      return table;
+      Data data = page::table(view.verdicts);
+      if (data.is_null())
+        return data;
+      for (Data &row : data["rows"])
+        row["cells"][0]["class"] = "method";
+      data["style"] = "verdicts";
+      data["question"] = view.question;
+      data["explanation"] = view.words;
+      return data;
     }
 
-    std::string page_of(const View &view, const StudyResults &results,
-                        const std::filesystem::path &folder)
+    Data page_advice(const View &view)
+    {
+      if (view.statements.empty())
+        return {};
+      Data statements = Data::array(), open = Data::array(), more = Data::array();
+      for (const Statement &one : view.statements)
+        statements.push_back({{"words", one.words}, {"is_bad", one.is_bad}});
+      for (const Card &card : view.cards)
+        (open.size() < at_a_glance ? open : more)
+            .push_back({{"title", card.title},
+                        {"table", page::table(card.table)},
+                        {"words", card.words},
+                        {"warnings", card.warnings}});
+      const Data n_more = more.empty() ? Data() : Data(more.size());
+      return {{"statements", std::move(statements)},
+              {"remarks", view.remarks},
+              {"cards",
+               open.empty() ? Data() : Data{{"open", open}, {"more", more}, {"n_more", n_more}}}};
+    }
+
+    Data page_gallery(const View &view, const Gallery &gallery, const std::filesystem::path &folder,
+                      const std::string &charts)
+    {
+      Data large = Data::array(), small = Data::array();
+      for (std::size_t i = 0; i < gallery.charts.size(); ++i)
+      {
+        const DataChart &chart = gallery.charts[i];
+        const bool is_large = i < gallery.n_large;
+        (is_large ? large : small)
+            .push_back(page::figure({folder / charts / chart.plot.file, chart.name + "-",
+                                     chart.plot.title, chart.caption, "Data",
+                                     charts + "/" + chart.name + ".csv", is_large, view.redraw}));
+      }
+      for (const Picture &picture : gallery.pictures)
+      {
+        const bool has_data = !picture.data.rows.empty();
+        large.push_back(page::figure({folder / charts / (picture.name + ".svg"), picture.name + "-",
+                                      picture.title, picture.caption, has_data ? "Data" : "Picture",
+                                      charts + "/" + picture.name + (has_data ? ".csv" : ".svg"),
+                                      true, view.redraw}));
+      }
+      if (large.empty() && small.empty())
+        return {};
+      const std::size_t n = small.size();
+      Data grid = n == 0 ? Data() : Data{{"charts", std::move(small)}};
+      const bool is_folded = n > 0 && !gallery.rest.empty();
+      if (is_folded)
+        grid.update({{"summary", gallery.rest},
+                     {"fold_words", gallery.note},
+                     {"n", n},
+                     {"is_open", n <= at_a_glance && gallery.n_large > 0}});
+      return {{"id", gallery.id},
+              {"title", gallery.title},
+              {"words", gallery.words},
+              {"large", std::move(large)},
+              {"folded", is_folded ? grid : Data()},
+              {"grid", is_folded ? Data() : grid},
+              {"note", is_folded ? "" : gallery.note}};
+    }
+
+    std::vector<std::string> facts_of(const View &view, const StudyResults &results)
     {
       std::vector<std::string> facts = view.facts;
       for (std::size_t i = 0; i < signs.size() && !results.verdicts.empty(); ++i)
@@ -347,10 +412,26 @@ namespace plumbline::report
                                                   return static_cast<std::size_t>(v.rating) == i;
                                                 }))) +
             " " + base::word(static_cast<study::Rating>(i)));
+      const auto n_hold = std::count_if(results.expectations.begin(), results.expectations.end(),
+                                        [](const study::Expectation &one) { return one.holds; });
+      if (const std::size_t n = results.expectations.size(); n > 0)
+        facts.push_back("expected: " + std::to_string(n_hold) + " of " + std::to_string(n) +
+                        " hold");
       if (!results.is_complete)
         facts.emplace_back(page::interrupted);
-      Data data = page::begin(results.analysis, results.scene_name, results.purpose, facts);
-      data["answer"] = answer_of(view);
+      return facts;
+    }
+
+    std::string page_of(const View &view, const StudyResults &results,
+                        const std::filesystem::path &folder)
+    {
+      const FileNames files = files_of(view, results);
+      Data data =
+          page::begin(files.page, results.scene_name, results.purpose, facts_of(view, results));
+      data["is_partial"] = !results.is_complete;
+      data["setting"] = view.setting;
+      data["advice"] = page_advice(view);
+      data["answer"] = view.statements.empty() ? answer_of(view) : "";
       data["equation"] = equation(results);
       data["model"] = view.model;
       data["scene_text"] = results.scene_text;
@@ -359,30 +440,26 @@ namespace plumbline::report
       data["expectations"] = page::expectations(results);
       data["warnings"] = results.warnings;
       data["left_out"] = results.left_out;
+      data["n_left_out"] = results.left_out.empty() ? Data() : Data(results.left_out.size());
       data["provenance"] = Data::array();
       for (const auto &[what, value] : results.provenance)
         data["provenance"].push_back(what + ": " + value);
-      data["scene_text"] = results.scene_text;
-      data["parts"] = page::parts(page::with_rows(view.parts));
       data["galleries"] = Data::array();
       for (const Gallery &gallery : view.galleries)
-      {
-        Data charts = page::charts(gallery.charts, folder, results.analysis),
-             pictures = Data::array();
-        for (const Picture &picture : gallery.pictures)
-          pictures.push_back(
-              page::figure({folder / results.analysis / (picture.name + ".svg"), picture.name + "-",
-                            picture.title, picture.caption, "Picture",
-                            results.analysis + "/" + picture.name + ".svg", true}));
-        if (charts.empty() && pictures.empty())
-          continue;
-        data["galleries"].push_back({{"id", gallery.id},
-                                     {"title", gallery.title},
-                                     {"words", gallery.words},
-                                     {"note", gallery.note},
-                                     {"grid", charts.empty() ? Data() : Data{{"charts", charts}}},
-                                     {"pictures", std::move(pictures)}});
-      }
+        if (Data one = page_gallery(view, gallery, folder, files.charts); !one.is_null())
+          data["galleries"].push_back(std::move(one));
+      data["parts"] = page::parts(view.parts, files.tables);
+      Data links = Data::array();
+      for (const auto &[section, title] :
+           {std::pair("verdicts", "Verdicts"), {"expectations", "Expectations"}})
+        if (!data[section].is_null())
+          links.push_back({{"id", section}, {"title", title}});
+      for (const Data &gallery : data["galleries"])
+        if (gallery["title"] != "")
+          links.push_back({{"id", gallery["id"]}, {"title", gallery["title"]}});
+      for (const Data &part : data["parts"])
+        links.push_back({{"id", part["id"]}, {"title", part["head"]}});
+      data["nav"] = {{"links", std::move(links)}};
       return fill("study", data);
     }
 
@@ -397,9 +474,11 @@ namespace plumbline::report
         text += to_markdown(view.verdicts);
       if (!view.question.empty())
         text += "\n" + view.question + "\n";
-      for (const Part &part : page::with_rows(view.parts))
-        text += "\n## " + part.head + "\n\n" + to_markdown(part.table) +
-                (part.words.empty() ? "" : "\n" + part.words + "\n");
+      for (const Part &part : view.parts)
+        if (!part.table.rows.empty() || part.table.columns.empty())
+          text += "\n## " + part.head + "\n\n" + (part.lead.empty() ? "" : part.lead + "\n\n") +
+                  (part.table.rows.empty() ? "" : to_markdown(part.table)) +
+                  (part.words.empty() ? "" : "\n" + part.words + "\n");
       if (!view.model.empty())
         text += "\n" + view.model + "\n";
       if (!view.omitted.empty())
@@ -421,6 +500,9 @@ namespace plumbline::report
         {
           script += picture.script;
           pictures.push_back(picture.name + ".svg");
+          std::filesystem::remove(folder / pictures.back());
+          if (!picture.data.rows.empty())
+            write_file(folder / (picture.name + ".csv"), to_csv(picture.data));
         }
       }
       for (const DataTable &one : view.tables)
@@ -433,17 +515,26 @@ namespace plumbline::report
       for (const std::string &picture : pictures)
         sharpen(folder / picture);
     }
+
+    void write_table(const Part &part, const std::filesystem::path &folder)
+    {
+      const std::string name = page::file_of(part);
+      write_file(folder / (name + ".csv"), to_csv(part.table));
+      write_file(folder / (name + ".md"), to_markdown(part.table));
+      write_file(folder / (name + ".tex"), to_latex(part.table));
+    }
   } // namespace
 
   void write_study(const View &view, const StudyResults &results,
                    const std::filesystem::path &folder)
   {
-    write_file(folder / (results.analysis + ".json"), io::to_json(results));
-    write_file(folder / (results.analysis + ".md"), markdown(view, results));
+    const FileNames files = files_of(view, results);
+    write_file(folder / (files.numbers + ".json"), io::to_json(results));
+    write_file(folder / (files.page + ".md"), markdown(view, results));
     for (const Part &part : page::with_rows(view.parts))
-      write_file(folder / results.analysis / (part.id + "_table.csv"), to_csv(part.table));
+      write_table(part, folder / files.tables);
     write_with_pictures(
-        folder / (results.analysis + ".html"), [&] { draw(view, folder / results.analysis); },
+        folder / (files.page + ".html"), [&] { draw(view, folder / files.charts); },
         [&] { return page_of(view, results, folder); });
   }
 } // namespace plumbline::report

@@ -15,12 +15,29 @@ namespace plumbline::report
   using analysis::Record;
   using study::StudyResults;
 
-  /// A column of a table that has a row for each record.
-  struct RecordColumn
+  /// A column of a table that has a row for each record, or for each of other things.
+  template <class Row>
+  struct ColumnOf
   {
-    std::string head;
-    std::function<Cell(const Record &)> cell;
+    Column head;
+    std::function<Cell(const Row &)> cell;
   };
+  using RecordColumn = ColumnOf<Record>;
+
+  template <class Row, class Rows>
+  Table table_of(const Rows &rows, const std::vector<ColumnOf<Row>> &columns)
+  {
+    Table table;
+    for (const auto &column : columns)
+      table.columns.push_back(column.head);
+    for (const Row &row : rows)
+    {
+      table.rows.emplace_back();
+      for (const auto &column : columns)
+        table.rows.back().push_back(column.cell(row));
+    }
+    return table;
+  }
 
   /// Columns by the name of a scalar or a text; the cell is empty where it is absent.
   RecordColumn number_column(const std::string &head, const std::string &scalar);
@@ -70,6 +87,7 @@ namespace plumbline::report
   {
     std::string name, title, script;
     std::string caption = {};
+    Table data = {}; ///< NAME.csv, where it has rows
   };
 
   /// A table that is a file NAME.csv.
@@ -86,29 +104,67 @@ namespace plumbline::report
     std::string id, title, words;
     std::vector<DataChart> charts;
     std::vector<Picture> pictures = {};
-    std::string note = {}; ///< below them
+    std::string note = {};   ///< below them
+    std::size_t n_large = 0; ///< so many charts, the first ones, are large
+    std::string rest = {};   ///< heading that the others are folded under; empty: they are not
+  };
+
+  /// A sentence of the answer to the question which method to take.
+  struct Statement
+  {
+    std::string words;
+    bool is_bad = false;
+  };
+
+  /// The cheapest runs of a case: a table without heads.
+  struct Card
+  {
+    std::string title;
+    Table table;
+    std::string words = {};
+    std::vector<std::string> warnings = {};
+  };
+
+  /// What write_study writes, and where; what is empty has the name of the analysis.
+  struct FileNames
+  {
+    std::string page = {}, numbers = {};  ///< without ending
+    std::string tables = {}, charts = {}; ///< folders
   };
 
   /// How the results of an analysis are shown.
   struct View
   {
-    std::string title;                     ///< of the page, e.g. "Stability"
-    std::string answer = {};               ///< what the results say, in a sentence or two
-    std::string model = {};                ///< what was solved, and what was left out
-    std::vector<std::string> omitted = {}; ///< from the model, a phrase each
-    std::string question = {};             ///< what the verdicts answer
-    std::string words = {};                ///< what the verdicts mean
+    std::string title; ///< of the page, e.g. "Stability"
+    FileNames files = {};
+    std::string redraw = "run again";       ///< to be done where pictures are missing
+    std::string setting = {};               ///< how the study is made, below the page's title
+    std::string answer = {};                ///< what the results say, in a sentence or two
+    std::vector<Statement> statements = {}; ///< instead, where methods are compared
+    std::vector<std::string> remarks = {};  ///< on them, a paragraph each
+    std::vector<Card> cards = {};           ///< on the page
+    std::vector<std::string> advice = {};   ///< the same in short: a line of the terminal each
+    std::string model = {};                 ///< what was solved, and what was left out
+    std::vector<std::string> omitted = {};  ///< from the model, a phrase each
+    std::string question = {};              ///< what the verdicts answer
+    std::string words = {};                 ///< what the verdicts mean
     Table verdicts = {};
-    std::vector<std::string> ratings = {}; ///< of the rows of `verdicts`, as classes of the page
-    std::vector<std::string> facts = {};   ///< below the page's title
+    std::vector<std::string> facts = {}; ///< below the page's title
     std::vector<Part> parts = {};
     std::vector<Gallery> galleries = {};
     std::vector<DataTable> tables = {}; ///< as CSV alone
+    /// What the terminal shows instead of verdicts and parts, after these lines.
+    std::vector<std::string> constants = {};
+    std::vector<Part> brief = {};
   };
+
+  /// The class of a cell on pages.
+  std::string look_of(study::Rating rating);
 
   /// Without anything special: a table and charts of all scalars.
   View default_view(const StudyResults &results);
 
+  View statics_view(const StudyResults &results);
   View stability_view(const StudyResults &results);
   View dispersion_view(const StudyResults &results);
   View strip_view(const StudyResults &results);
@@ -133,9 +189,9 @@ namespace plumbline::report
   std::vector<std::string> short_lines(const std::string &words, std::size_t most,
                                        std::size_t indent = 0);
 
-  /// A title, as much of the tables of the finest levels as there is room for in 25 lines of 120
-  /// columns, and last lines, which are no longer than that.
-  std::string summary(const std::string &title, const std::vector<Part> &parts,
+  /// First lines, as much of the tables of the finest levels as there is room for in 25 lines of
+  /// 120 columns, and last lines, which are no longer than that.
+  std::string summary(const std::vector<std::string> &begin, const std::vector<Part> &parts,
                       const std::vector<std::string> &end);
 
   /// What the terminal shows: 25 lines of 120 columns at most. Tables, of the finest levels alone
@@ -144,7 +200,8 @@ namespace plumbline::report
   std::string study_summary(const View &view, const StudyResults &results,
                             const std::string &files);
 
-  /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with tables, charts and pictures.
+  /// Write ANALYSIS.json, .md and .html, and ANALYSIS/ with tables (CSV, Markdown and LaTeX),
+  /// charts and pictures, or files of the view's own names.
   /// @throws InputError  the folder cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   void write_study(const View &view, const StudyResults &results,

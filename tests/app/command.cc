@@ -2,7 +2,7 @@
 
 #include "command.h"
 #include "base/progress_line.h"
-#include "report/statics_summary.h"
+#include "report/view.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +25,11 @@ namespace
   void expect_refusal(const std::string &settings, const std::string &message)
   {
     expect_refused("run " + scene + " " + settings, message);
+  }
+
+  std::string summary_of(const plumbline::study::StudyResults &results)
+  {
+    return study_summary(plumbline::report::statics_view(results), results, "out");
   }
 } // namespace
 
@@ -388,11 +393,11 @@ TEST(Command, a_summary_is_short_and_ends_in_the_answer)
     EXPECT_LE(n_characters, 120) << line;
   }
   EXPECT_LE(all.size(), 25u);
-  expect_found(many.out, "  ... and 4 more in the report\n");
+  expect_found(many.out, "\nDGQ2 "); // all 13 methods fit
   ASSERT_GE(all.size(), 3u);
-  EXPECT_EQ(all[all.size() - 3], "Converge: IPA-AC-R2, IPA-AC-R4, Q1, Q2, Q3, DGQ1, DGQ2");
+  EXPECT_EQ(all[all.size() - 3], "✓ Converge: IPA-AC-R2, IPA-AC-R4, Q1, Q2, Q3, DGQ1, DGQ2.");
   EXPECT_EQ(all[all.size() - 2],
-            "Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0");
+            "✗ Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0.");
   EXPECT_EQ(all.back().rfind("Cheapest to a relative error of 0.01: ", 0), 0u) << all.back();
 }
 
@@ -411,7 +416,7 @@ TEST(Command, a_summary_without_advice_ends_in_the_estimated_error)
   fine.field_estimate = 3e-4;
   fine.certified_digits = 4;
   results.references = {coarse, fine};
-  const std::string said = plumbline::report::statics_summary(results, "out");
+  const std::string said = summary_of(results);
   expect_found(said, "Estimated error of Q2, u, m = 3, h = 0.05: 2e-05 (averages, L2), 0.0003 "
                      "(field, L2); 4 certified digits\n");
   EXPECT_EQ(said.find("0.001 (averages"), std::string::npos);
@@ -433,9 +438,9 @@ TEST(Command, a_summary_puts_methods_into_the_worst_of_their_classes)
     trend.outcome = outcome;
     results.trends.push_back(trend);
   }
-  const std::string said = plumbline::report::statics_summary(results, "out");
-  expect_found(said, "Stall, however fine the mesh: FA (in 1 of 3 cases)\n");
-  EXPECT_EQ(said.find("Converge:"), std::string::npos);
+  const std::string said = summary_of(results);
+  expect_found(said, "✗ Stall in some cases: FA (1 of 3).\n");
+  EXPECT_EQ(said.find("Converge"), std::string::npos);
 }
 
 TEST(Command, json_on_standard_output_is_the_results_file)

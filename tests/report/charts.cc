@@ -1,4 +1,4 @@
-#include "report/charts.h"
+#include "report/statics_view.h"
 
 #include "base/error.h"
 #include "report/maps.h"
@@ -19,34 +19,59 @@ namespace plumbline::report
     {
       return text.find(part) != std::string::npos;
     }
+
+    void write(const study::StudyResults &results, const fixture::Folder &folder)
+    {
+      write_study(statics_view(results), results, folder.path());
+    }
+
+    /// The charts of a gallery.
+    std::vector<DataChart> charts_of(const study::StudyResults &results, const std::string &gallery)
+    {
+      for (const Gallery &one : statics_galleries(results))
+        if (one.id == gallery)
+          return one.charts;
+      return {};
+    }
+
+    std::string read(const fixture::Folder &folder, const std::string &name)
+    {
+      return fixture::read(folder.path() / "charts" / name);
+    }
   } // namespace
 
   TEST(ReportCharts, DrawEachCaseWithItsDataBeside)
   {
     const fixture::Folder folder;
     const study::StudyResults results = fixture::results();
-    const std::vector<Chart> charts = write_charts(results, folder.path());
-    ASSERT_EQ(charts.size(), 1 + 5 * 4 + 1u); // overall, five kinds for four cases, error maps
-    EXPECT_TRUE(is_overall(charts.front()));
-    for (const Chart &chart : charts)
+    write(results, folder);
+    std::size_t n = 0;
+    for (const Gallery &gallery : statics_galleries(results))
     {
-      const std::string svg = fixture::read(folder.path() / "charts" / (chart.name + ".svg"));
-      const std::string csv = fixture::read(folder.path() / "charts" / (chart.name + ".csv"));
-      EXPECT_TRUE(holds(svg, "</svg>")) << chart.name;
-      if (chart.kind == ChartKind::error_map)
-        continue;
-      EXPECT_TRUE(holds(svg, "<text>FA (not AC)</text>")) << chart.name;
-      EXPECT_TRUE(holds(svg, "<text>IPA-AC recalibrated</text>")) << chart.name;
-      EXPECT_TRUE(holds(svg, "<text>P0 (not AC)</text>")) << chart.name;
-      // A head, and five methods with five levels of one case, or of the two of the problem.
-      EXPECT_EQ(fixture::count(csv, "\n"), is_overall(chart) ? 51u : 26u) << chart.name;
+      n += gallery.charts.size() + gallery.pictures.size();
+      for (const DataChart &chart : gallery.charts)
+      {
+        const std::string svg = read(folder, chart.name + ".svg"),
+                          csv = read(folder, chart.name + ".csv");
+        EXPECT_TRUE(holds(svg, "</svg>")) << chart.name;
+        EXPECT_TRUE(holds(svg, "<text>FA (not AC)</text>")) << chart.name;
+        EXPECT_TRUE(holds(svg, "<text>IPA-AC recalibrated</text>")) << chart.name;
+        EXPECT_TRUE(holds(svg, "<text>P0 (not AC)</text>")) << chart.name;
+        // A head, and five methods with five levels of one case, or of the two of the problem.
+        const bool is_overall = chart.name == "work-precision";
+        EXPECT_EQ(fixture::count(csv, "\n"), is_overall ? 51u : 26u) << chart.name;
+      }
+      for (const Picture &picture : gallery.pictures)
+        EXPECT_TRUE(holds(read(folder, picture.name + ".svg"), "</svg>")) << picture.name;
     }
+    EXPECT_EQ(n, 1 + 5 * 4 + 1u); // overall, five kinds for four cases, error maps
+    EXPECT_EQ(charts_of(results, "work").front().name, "work-precision");
   }
 
   TEST(ReportCharts, HaveUnitsOnTheirAxes)
   {
     const fixture::Folder folder;
-    write_charts(fixture::results(), folder.path());
+    write(fixture::results(), folder);
     const auto svg = [&](const std::string &name)
     { return fixture::read(folder.path() / "charts" / (name + "_case1_m-3.svg")); };
     EXPECT_TRUE(holds(svg("convergence"), "horizon δ [length]"));
@@ -60,7 +85,7 @@ namespace plumbline::report
   TEST(ReportCharts, SkipAnErrorThatHasNoPlaceOnALogarithmicAxis)
   {
     const fixture::Folder folder;
-    write_charts(fixture::results(), folder.path());
+    write(fixture::results(), folder);
     const std::string csv = fixture::read(folder.path() / "charts" / "convergence_case1_m-3.csv");
     EXPECT_TRUE(holds(csv, "\nQ1,case1,m = 3,0,0.30000000000000004,\n"));  // an exact zero
     EXPECT_TRUE(holds(csv, "\nP0,case1,m = 3,2,0.075000000000000011,\n")); // NaN
@@ -74,7 +99,7 @@ namespace plumbline::report
     for (study::Trend &trend : results.trends)
       trend.axis = study::Axis::mesh_size;
     const fixture::Folder folder;
-    write_charts(results, folder.path());
+    write(results, folder);
     for (const char *kind : {"convergence", "iterations"})
       EXPECT_TRUE(
           holds(fixture::read(folder.path() / "charts" / (std::string(kind) + "_case1_m-3.csv")),
@@ -87,14 +112,14 @@ namespace plumbline::report
     for (study::Record &run : results.records)
       run.cost.peak_bytes = 0;
     results.maps.clear();
-    for (const Chart &chart : list_charts(results))
-    {
-      EXPECT_NE(chart.kind, ChartKind::memory);
-      EXPECT_NE(chart.kind, ChartKind::error_map);
-    }
-    EXPECT_TRUE(list_charts(study::StudyResults()).empty());
+    EXPECT_TRUE(charts_of(results, "memory").empty());
+    for (const Gallery &gallery : statics_galleries(results))
+      EXPECT_TRUE(gallery.pictures.empty()) << gallery.id;
+    for (const Gallery &gallery : statics_galleries(study::StudyResults()))
+      EXPECT_TRUE(gallery.charts.empty() && gallery.pictures.empty()) << gallery.id;
     const fixture::Folder folder;
-    EXPECT_TRUE(write_charts(study::StudyResults(), folder.path()).empty());
+    write(study::StudyResults(), folder);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "charts"));
   }
 
   TEST(ReportCharts, SurviveNamesThatMeanSomethingToGnuplot)
@@ -105,7 +130,7 @@ namespace plumbline::report
       if (run.key.method == "FA")
         run.key.method = "it's `touch boom` \"{x}_2\\n";
     results.trends.clear();
-    write_charts(results, folder.path());
+    write(results, folder);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "charts" / "boom"));
     EXPECT_TRUE(holds(fixture::read(folder.path() / "charts" / "work-precision.svg"),
                       "it's `touch boom` \"{x}_2\\n"));
@@ -119,7 +144,7 @@ namespace plumbline::report
     std::string message = "no error";
     try
     {
-      write_charts(fixture::results(), folder.path());
+      write(fixture::results(), folder);
     }
     catch (const NumericalError &error)
     {
@@ -270,8 +295,13 @@ namespace plumbline::report
       if (run.key.problem != "case1" && run.key.method != "FA")
         run.set(results.decisive_error, 1e-14);
     EXPECT_EQ(telling_problem(results), "case1");
-    EXPECT_EQ(list_charts(results).front().problem, "case1");
-    EXPECT_TRUE(holds(list_charts(results).front().title, "the best of m = 3, m = 4"));
+    const std::string title = charts_of(results, "work").front().plot.title;
+    EXPECT_EQ(title.find("case1: "), 0u) << title;
+    EXPECT_TRUE(holds(title, "the best of m = 3, m = 4")) << title;
+    EXPECT_EQ(charts_of(results, "memory").front().name, "memory_case1_m-3");
+    for (study::Record &run : results.records)
+      run.set(results.decisive_error, run.key.problem == "case1" ? 1e-14 : 1e-3);
+    EXPECT_EQ(charts_of(results, "memory").front().name, "memory_case-2-delta_m-3");
     EXPECT_EQ(telling_problem(study::StudyResults()), "");
   }
 
@@ -279,7 +309,7 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StudyResults results = fixture::results();
-    write_charts(results, folder.path());
+    write(results, folder);
     const std::string svg = fixture::read(folder.path() / "charts" / "error-maps.svg");
     const std::string csv = fixture::read(folder.path() / "charts" / "error-maps.csv");
     EXPECT_EQ(fixture::count(svg, "<image style='image-rendering:pixelated'"), 5u);
@@ -344,11 +374,16 @@ namespace plumbline::report
       map.solution = {-.5, 0, 1, std::nan(""), 0, 0, 0, 0, 0, 0, 0, .25};
     ASSERT_NE(shown(), nullptr);
     EXPECT_EQ(shown()->method, "P0"); // Q1 is more accurate
-    ASSERT_EQ(list_charts(results).back().kind, ChartKind::solution);
-    EXPECT_EQ(list_charts(results).back().title,
-              "case1, m = 3, h = 0.1: solution computed with P0");
+    for (const Gallery &gallery : statics_galleries(results))
+    {
+      if (gallery.id == "solution")
+      {
+        ASSERT_EQ(gallery.pictures.size(), 1u);
+        EXPECT_EQ(gallery.pictures[0].title, "case1, m = 3, h = 0.1: solution computed with P0");
+      }
+    }
 
-    write_charts(results, folder.path());
+    write(results, folder);
     const std::string svg = fixture::read(folder.path() / "charts" / "solution.svg"),
                       csv = fixture::read(folder.path() / "charts" / "solution.csv");
     EXPECT_EQ(fixture::count(svg, "<image style='image-rendering:pixelated'"), 1u);

@@ -156,7 +156,10 @@ namespace plumbline::report
     EXPECT_EQ(view.verdicts.rows[0][3].text, "AC");
     EXPECT_EQ(view.verdicts.rows[1][3].text, "not AC");
     EXPECT_EQ(view.verdicts.rows[1][5].text, "0.126");
-    EXPECT_EQ(view.ratings, (std::vector<std::string>{"converges", "stalls", "stalls"}));
+    std::vector<std::string> looks;
+    for (const auto &row : view.verdicts.rows)
+      looks.push_back(row[2].look);
+    EXPECT_EQ(looks, (std::vector<std::string>{"converges", "stalls", "stalls"}));
     study::StudyResults exact = results();
     exact.trends[1].round_off = exact.trends[1].values.back();
     EXPECT_EQ(dispersion_view(exact).verdicts.rows[1][5].text, empty_cell().text);

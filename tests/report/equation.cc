@@ -1,6 +1,6 @@
 // The equation that pages show.
 #include "report/equation.h"
-#include "report/page.h"
+#include "report/view.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -94,12 +94,12 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     study::StudyResults results = fixture::results();
-    write_page(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     EXPECT_FALSE(holds(fixture::read(folder.path() / "report.html"), "<p class=\"equation\">"));
     EXPECT_EQ(equation_of({{"model", "of somebody else"}, {"dimension", "2"}, {"kernel", "1/r"}}),
               "");
     results.facts = {{"model", "bond-based"}, {"dimension", "2"}, {"kernel", "constant"}};
-    write_page(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     EXPECT_TRUE(holds(fixture::read(folder.path() / "report.html"),
                       "<p class=\"equation\">" + equation(results) + "</p>"));
   }

@@ -1,8 +1,8 @@
 // Charts as PDF, from the scripts that draw them as SVG.
 #include "report/pdf.h"
 #include "base/error.h"
-#include "report/charts.h"
 #include "report/data_charts.h"
+#include "report/view.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace
 TEST(Pdf, is_drawn_beside_each_svg_of_the_same_size)
 {
   const fixture::Folder folder;
-  write_charts(fixture::results(), folder.path());
+  write_study(statics_view(fixture::results()), fixture::results(), folder.path());
   draw_pdf(folder.path());
   std::size_t n = 0;
   for (const auto &one : fs::directory_iterator(folder.path() / "charts"))

@@ -125,6 +125,57 @@ TEST(StudyPage, begins_with_the_answer_that_the_terminal_ends_in)
   EXPECT_EQ(answer_of({"Stability"}), "");
 }
 
+TEST(StudyPage, folds_parts_into_the_section_before_them_and_links_sections)
+{
+  const fixture::Folder folder;
+  StudyResults results;
+  results.analysis = "stability";
+  report::View view = long_view(1);
+  Part words{"words", "Words", "a sentence <", {}}, nothing{"nothing", "Nothing", "", {}}, fold;
+  nothing.table.columns = {{"a"}};
+  fold.id = fold.file = "details";
+  fold.head = "More of it";
+  fold.table = view.verdicts;
+  fold.fold = Fold::closed;
+  view.parts = {view.parts[0], fold, nothing, words};
+  write_study(view, results, folder.path());
+  const std::string html = fixture::read(folder.path() / "stability.html");
+  const std::size_t section = html.find("<section id=\"measures\">"),
+                    details = html.find("<details><summary>More of it</summary>");
+  ASSERT_NE(details, std::string::npos);
+  EXPECT_LT(section, details);
+  EXPECT_EQ(html.substr(section, details - section).find("</section>"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#measures\">Measures</a>"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#words\">Words</a>"), std::string::npos);
+  EXPECT_NE(html.find("a sentence &lt;"), std::string::npos);
+  EXPECT_EQ(html.find("Nothing"), std::string::npos); // a table without rows
+  for (const char *const name : {"measures_table.csv", "measures_table.tex", "details.md"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "stability" / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "stability" / "words_table.csv"));
+}
+
+TEST(StudyPage, heads_columns_by_their_group)
+{
+  const fixture::Folder folder;
+  report::View view{"Statics"};
+  view.verdicts.columns = {{"method"}, {"m = 3"}, {"m = 4"}, {"m = 3"}};
+  view.verdicts.columns[1].group = view.verdicts.columns[2].group = "u";
+  view.verdicts.columns[3].group = "v";
+  view.verdicts.rows = {{text_cell("FA"), text_cell("AC"), text_cell("AC"), text_cell("not AC")}};
+  view.verdicts.rows[0][3].hint = "a \"plateau\"";
+  view.verdicts.rows[0][3].look = "stalls";
+  StudyResults results;
+  results.analysis = "statics";
+  write_study(view, results, folder.path());
+  const std::string html = fixture::read(folder.path() / "statics.html");
+  EXPECT_NE(html.find("colspan=\"2\">u</th><th class=\"problem\" colspan=\"1\">v</th>"),
+            std::string::npos);
+  EXPECT_NE(html.find("<td class=\"stalls\" title=\"a &quot;plateau&quot;\">not AC</td>"),
+            std::string::npos);
+  EXPECT_NE(fixture::read(folder.path() / "statics.md").find("| u, m = 3 | u, m = 4 | v, m = 3 |"),
+            std::string::npos);
+}
+
 TEST(StudyText, names_series_and_quantities_of_a_method_where_its_verdicts_differ)
 {
   report::View view{"Dispersion"};

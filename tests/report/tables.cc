@@ -1,6 +1,7 @@
 #include "report/tables.h"
 
 #include "base/error.h"
+#include "report/view.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StudyResults results = fixture::results();
-    write_tables(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/errors_case1_m-3.csv");
     EXPECT_EQ(fixture::count(csv, "\n"), 6u); // a head and five levels
     EXPECT_TRUE(holds(csv, "level,h [length],horizon [length],m,FA error,FA rate,"));
@@ -83,7 +84,7 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StudyResults results = fixture::results();
-    write_tables(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/verdicts.csv");
     EXPECT_EQ(fixture::count(csv, "\n"), 1 + results.trends.size());
     EXPECT_TRUE(holds(csv, "method,problem,series,rate,rate uncertainty,plateau,plateau "
@@ -98,7 +99,7 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StudyResults results = fixture::results();
-    write_tables(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     const std::string csv = fixture::read(folder.path() / "tables/cost.csv");
     EXPECT_EQ(fixture::count(csv, "\n"), results.records.size()); // a head, less one failure
     EXPECT_TRUE(holds(csv, "FA,case1,m = 3,0.10000000000000001,81,2268,"));
@@ -112,7 +113,7 @@ namespace plumbline::report
     EXPECT_EQ(escape_latex("δ = 0.4 ± 1"), "$\\delta$ = 0.4 $\\pm$ 1");
 
     const fixture::Folder folder;
-    write_tables(fixture::results(), folder.path());
+    write_study(statics_view(fixture::results()), fixture::results(), folder.path());
     const std::string tex = fixture::read(folder.path() / "tables/errors_case1_m-3.tex");
     EXPECT_TRUE(holds(tex, "$9.300\\times10^{-3}$"));
     EXPECT_TRUE(holds(tex, "\\begin{tabular}{rrrrrrrrrrrrrr}"));
@@ -203,7 +204,7 @@ namespace plumbline::report
     std::ofstream(folder.path() / "file") << "x";
     try
     {
-      write_tables(fixture::results(), folder.path() / "file");
+      write_study(statics_view(fixture::results()), fixture::results(), folder.path() / "file");
       FAIL() << "no error";
     }
     catch (const InputError &error)

@@ -1,8 +1,6 @@
 // What tables, charts and pages show of a study over a variable of the scene.
 
 #include "io/results_json.h"
-#include "report/charts.h"
-#include "report/page.h"
 #include "report/tables.h"
 #include "report/view.h"
 #include "scene/scene_file.h"
@@ -84,14 +82,13 @@ namespace plumbline::report
   {
     const fixture::Folder folder;
     const study::StudyResults results = over_q();
-    write_charts(results, folder.path());
+    write_study(statics_view(results), results, folder.path());
     const std::string chart = "convergence_case1_h-0.1-m-3";
     EXPECT_TRUE(holds(fixture::read(folder.path() / "charts" / (chart + ".csv")),
                       "FA,case1,\"h = 0.1, m = 3\",0,-0.5,0.014999999999999999\n"));
     const std::string svg = fixture::read(folder.path() / "charts" / (chart + ".svg"));
     EXPECT_TRUE(holds(svg, "error over q"));
     EXPECT_TRUE(holds(svg, ">-0.2<")); // an axis that holds it is linear
-    write_page(results, folder.path());
     const std::string page = fixture::read(folder.path() / "report.html");
     EXPECT_TRUE(holds(page, "Largest error over all values of q and problems, the best method "
                             "first: FA (2.500e-2)."));

@@ -3,7 +3,7 @@
 #include "analysis/statics.h"
 #include "io/record_journal.h"
 #include "method/box_discretisation.h"
-#include "report/report.h"
+#include "report/view.h"
 #include "scene/problem.h"
 #include "tests/report/fixture.h"
 #include "tests/study/space_scene.h"
@@ -227,7 +227,7 @@ TEST(StaticsInSpace, are_drawn_and_written)
   EXPECT_EQ(results.maps[0].solution.size(), 64u);
   EXPECT_NE(report::fixture::read(folder.path() / "field.vti").find("WholeExtent=\"0 8 0 8 0 8 \""),
             std::string::npos);
-  report::write_report(results, folder.path());
+  report::write_study(report::statics_view(results), results, folder.path());
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.html"));
   EXPECT_EQ(io::results_in(folder.path()).records.size(), 2u);
 }
