@@ -124,11 +124,11 @@ namespace plumbline::io
       lines_.push_back(csv.line());
       for (const std::string &axis : others)
         if (csv.has(axis) && csv.number(axis) != 0)
-          throw InputError("'" + file_ + "', line " + std::to_string(csv.line()) + ": " + axis +
-                           " = " + base::to_text(csv.number(axis), 6) + ", but the scene has " +
-                           (dimension == 1 ? "one dimension" : "two dimensions") +
-                           "; take out the column " + axis +
-                           ", or write Domain/dimension = " + (axis == "y" ? "2" : "3"));
+          throw InputError(
+              "'" + file_ + "', line " + std::to_string(csv.line()) + ": " + axis + " = " +
+              base::to_text(csv.number(axis), 6) + ", but the scene has " +
+              (dimension == 1 ? "one dimension" : "two dimensions") + "; take out the column " +
+              axis + ", or write Domain/dimension = " + std::to_string(axis.front() - 'x' + 1));
     }
     if (points_.empty())
       throw InputError("'" + file_ + "' has no points; give one " + axes_text(dimension) +
