@@ -29,7 +29,7 @@ namespace plumbline::check
   {
     constexpr std::size_t most_named = 5;
 
-    const std::string cause_word = "cause: ", question = "is the scene that of these bonds? ";
+    const std::string cause_word = "cause: ", question = "does the scene belong to these bonds? ";
 
     std::string point(const dealii::Point<2> &x)
     {
@@ -105,7 +105,7 @@ namespace plumbline::check
                  ? "as horizon and h go to 0 together the solution tends to a wrong limit, off by "
                    "about " +
                        base::to_percent(std::abs(1 / moments.mean_ratio - 1)) +
-                       ", as a solution is inverse to its operator"
+                       ", because the solution scales with the inverse of the operator"
                  : "as horizon and h go to 0 together there is no limit, the operator has the "
                    "wrong sign";
     }
@@ -308,13 +308,13 @@ namespace plumbline::check
                " and the horizon " + base::to_text(horizon, 6);
       else if (longest > 0 && std::abs(longest - horizon) > shell * spacing)
         what = "the longest bond is " + base::to_text(longest, 6) +
-               ", but the scene has the horizon " + base::to_text(horizon, 6) + " at the spacing " +
+               ", but the scene's horizon is " + base::to_text(horizon, 6) + " for a spacing of " +
                base::to_text(spacing, 6);
       return what.empty() ? ""
                           : question + what +
-                                "; give Study/h and Study/m, or Study/horizon, of your bonds and "
-                                "check again: until then all moments are compared with those of "
-                                "another ball, and no cause is named";
+                                "; give Study/h and Study/m (or Study/horizon) of your bonds and "
+                                "check again; until then all moments are compared with those of "
+                                "a different ball, and no cause is named";
     }
 
     std::vector<std::string> interior_complaints(const Findings &found,
@@ -394,7 +394,7 @@ namespace plumbline::check
                               : std::string()) +
                          "second moments are off by " + base::to_percent(moments.second.value) +
                          " at node " + found.id(moments.second.node) +
-                         ", the largest component; their trace, the strength of the operator, by " +
+                         " (largest component) and their trace, the strength of the operator, by " +
                          base::to_percent(moments.mean_ratio - 1) +
                          " on average: " + consequence(found));
       if (found.n_on_boundary > 0)

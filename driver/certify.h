@@ -12,7 +12,7 @@ namespace plumbline::driver
     unsigned int reference_level = 0; ///< from 1, the coarsest; 0: the finest
   };
 
-  /// What `certify` finds for a scene, whether it is certain or not.
+  /// The result of `certify` for a scene, whether or not it can be certified.
   /// @param reference_level  from 1, the coarsest; 0: the finest
   /// @param begin            called once the scene is known to be suitable, before it is solved
   /// @throws InputError      as study::check_certifiable; no such method or rule

@@ -42,7 +42,7 @@ namespace plumbline::driver
       scene::Scene scene = read_scene(options);
       if (scene.fracture.is_there())
         throw InputError("scene '" + scene.name +
-                         "': Fracture/toughness is for 'plumbline grow', which breaks bonds; run "
+                         "': only 'plumbline grow' uses Fracture/toughness; run "
                          "that command, or clear the key");
       return scene;
     }

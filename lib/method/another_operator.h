@@ -6,15 +6,15 @@
 
 namespace plumbline::method
 {
-  /// A method that discretises another operator than that of the problem, to show what follows from
-  /// it. Its solutions tend to those of that operator, which changes of mesh or degree do not
-  /// reveal: it has no error estimate and is no reference.
+  /// A method that discretises a different operator from that of the problem, to show the effect of
+  /// this. Its solutions tend to those of that operator. Changes of mesh or degree do not reveal
+  /// this, so it has no error estimate and cannot be a reference.
   class AnotherOperator
   {
   public:
     virtual ~AnotherOperator() = default;
 
-    /// What it does to the operator, as what follows the name of the method: "replaces ...".
+    /// What it does to the operator, as a predicate after the name of the method: "replaces ...".
     virtual std::string what_it_does() const = 0;
   };
 

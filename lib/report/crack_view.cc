@@ -92,7 +92,7 @@ namespace plumbline::report
       if (!record.text("reason").empty())
         text += ". Reason: " + record.text("reason");
       return text + ". This rests on one mesh size, h = " + rounded(record.key.h) +
-             ": run another Study/h to see how it depends on h.";
+             ": run with another Study/h to see how it depends on h.";
     }
 
     DataChart tip_chart(const Record &record, const analysis::Curve &samples)

@@ -57,7 +57,7 @@ namespace plumbline::report
     std::vector<double> x_ticks;  ///< empty: powers of ten
     std::optional<Range> y_range; ///< of a linear axis; empty: from 0
     std::vector<Vertex> frontier; ///< drawn broad and grey behind the lines
-    std::string frontier_label = "best that does not stall";
+    std::string frontier_label = "best among methods that do not stall";
     std::vector<Line> lines; ///< at least one point in all
   };
 

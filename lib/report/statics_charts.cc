@@ -81,7 +81,7 @@ namespace plumbline::report
       return verdict_words(trend).compare(0, 4, "rate") != 0;
     }
 
-    /// Other fields at least tend to a wrong limit.
+    /// Whether the limit is wrong, for this field or for others.
     bool is_wrong(const study::Trend &trend)
     {
       return trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::field_only;
@@ -307,8 +307,8 @@ namespace plumbline::report
         galleries.push_back(
             {"maps",
              "Where the error sits",
-             is_line ? "The error of cell averages, the largest of each block of cells, at the "
-                       "finest level. At the nodes a method may be more accurate or less."
+             is_line ? "The largest error of the cell averages in each block of cells at the "
+                       "finest level. At the nodes a method may be more or less accurate."
                      : "The largest error in each block of cells at the finest level. One colour "
                        "scale for all methods; dark is accurate, white lies outside the domain.",
              {},
@@ -331,10 +331,11 @@ namespace plumbline::report
          "Work is setup (weights or entries, and geometry as far as they need it) and solve. "
          "Lower left is better: a smaller error for less work. Each point is a level of the sweep; "
          "where several series share a chart, a line ends where more work gains nothing; the grey "
-         "band joins the points that no other beats, without those of methods that stall. Solid "
-         "lines with filled symbols are meshfree rules, dashed lines with open symbols are "
-         "Galerkin methods. Errors below the estimated round-off of every method, if there are any "
-         "beside larger ones, stand in a grey strip: a row for each method, not to scale." +
+         "band joins the points that no other point beats in both work and error, excluding "
+         "methods that stall. Solid lines with filled symbols are meshfree rules, dashed lines "
+         "with open symbols are Galerkin methods. If some errors are below the estimated round-off "
+         "of every method and others are larger, the former are drawn in a grey strip: one row per "
+         "method, not to scale." +
              geometry_words(results),
          work_charts(results)},
         {"convergence", errors,

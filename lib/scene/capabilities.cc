@@ -65,7 +65,7 @@ namespace plumbline::scene
       case C::dilatation:
         return {model + " with its dilatation",
                 scene.domain.is_free_body
-                    ? "give constants without a dilatation: lambda = mu, which is nu = 1/4 in "
+                    ? "give constants without a dilatation term: lambda = mu, i.e. nu = 1/4 in "
                       "plane strain, or l = 4 k"
                     : "write Material/model = bond-based"};
       case C::zero_dilatation:

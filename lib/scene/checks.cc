@@ -156,7 +156,7 @@ namespace plumbline::scene
         check_influence(scene);
       require(!is_navier || scene.is_vector(),
               "Kernel/limit = Navier does not fit the scalar kernel '" + kernel.type +
-                  "'; choose a bond tensor (Kernel/type), a model whose influence function it is "
+                  "'; choose a bond tensor (Kernel/type), a model with an influence function "
                   "(Material/model = LPS, variational or double well) or a Laplace limit");
       require(!scene.is_vector() || is_navier || kernel.limit == Limit::none,
               "Kernel/limit = '" + base::word(kernel.limit) + "' does not fit the bond tensor '" +

@@ -49,7 +49,7 @@ namespace plumbline::scene
           {"Time/density", "kg/m^3"},
           {"Time/final time", "s"},
           {"Crack/notch", "m, from the left end along the midline"},
-          {"Crack/load", "energy of the strained strip over that at which a crack grows"},
+          {"Crack/load", "strain energy of the strip relative to the threshold of growth"},
           {"Study/m", "horizon / h"},
           {"Study/h", "m; several values show how the result depends on h"}};
       constexpr std::size_t column = 46; // of the comments

@@ -114,7 +114,7 @@ namespace plumbline::scene
     if (is_on_intervals(scene))
       throw InputError(
           "Domain/dimension = 1 with Material/model = " + scene.material.model->name() +
-          " is for 'plumbline run' and 'certify' alone; write Domain/dimension = 2");
+          " is supported by 'plumbline run' and 'certify' only; write Domain/dimension = 2");
     const auto field = [&](const std::string &key, const std::string &text)
     {
       const Expression expression(key, text, scene.names(level.horizon, t));

@@ -38,7 +38,7 @@ namespace plumbline::scene
             "'plumbline new NAME --kind crack' writes a scene that has them",
             true}},
           {"grow",
-           {"a notched body that grips pull, and bonds that break",
+           {"a notched body pulled by grips, and bonds that can break",
             {{"Fracture/toughness", "G_c"},
              {"Kernel/limit", "= Navier"},
              {"Material/model", "= LPS"},

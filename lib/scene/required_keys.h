@@ -7,9 +7,9 @@
 
 namespace plumbline::scene
 {
-  /// Before a scene is read as a whole: names all keys at once that an analysis cannot do without
-  /// and that neither the file nor the overrides give, and how to get a scene that has them. What
-  /// is wrong with given values is left to read_scene(). Scenes that are pipes cannot be read twice
+  /// Called before a scene is read as a whole: names all keys at once that an analysis requires
+  /// and that neither the file nor the overrides give, and how to get a scene that has them.
+  /// Invalid values are left to read_scene(). Scenes that are pipes cannot be read twice
   /// and are not checked.
   /// @param analysis  of driver::analyses()
   /// @throws InputError  keys are missing

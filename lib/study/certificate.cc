@@ -475,8 +475,8 @@ namespace plumbline::study
       refuse("Problem/solution and load pose " + std::to_string(cases.size()) +
              " cases; a certificate is of one: leave one in");
     if (scene.output.points.empty())
-      refuse("Output/points is empty; name a CSV file with the columns x,y (in one dimension x, in "
-             "three x,y,z), at whose points the solution is to be certified");
+      refuse("Output/points is empty; name a CSV file with the columns x,y (x in one dimension, "
+             "x,y,z in three): the points at which the solution is to be certified");
     if (!scene.reference.method)
       refuse("Reference/method = none; name the Galerkin method whose values are certified, "
              "e.g. Q2 on a lattice or P2 on triangles");

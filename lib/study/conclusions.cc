@@ -279,7 +279,7 @@ namespace plumbline::study
         results.facts[what] = value;
     }
 
-    /// Verdicts rest on a reference; without an estimate nobody knows how far they carry.
+    /// Verdicts rest on a reference, whose error is unknown if it is not estimated.
     void tell_unknown_reference(const scene::Scene &scene, StudyResults &results)
     {
       if (is_against_reference(results.decisive_error) && scene.reference.method &&

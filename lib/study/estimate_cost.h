@@ -21,8 +21,8 @@ namespace plumbline::study
       return result;
     }
 
-    /// Says it among the facts of a study where it is most of the time, and long enough to wait
-    /// for; and how to do without.
+    /// Adds this time, and how to avoid it, to the facts of a study if it is at least half of the
+    /// total and at least 2 CPU s.
     void tell(StudyResults &results) const;
 
   private:

@@ -29,7 +29,7 @@ namespace plumbline::study
       return result;
     }
 
-    /// The problem on cells of 2 h, if there are any and the horizon has one.
+    /// The problem on cells of 2 h; empty if they do not fit the intervals or the horizon.
     std::optional<ProblemOnLine> doubled(const ProblemOnLine &problem)
     {
       if (2 * problem.h() > problem.horizon() * (1 + 1e-9))
@@ -74,7 +74,7 @@ namespace plumbline::study
                                 factor * std::abs(a.value(points[i][0]) - b.value(points[i][0])));
     }
 
-    /// The method of degree p + 1, where it can do the kernel.
+    /// The method of degree p + 1; null if it does not support the kernel.
     std::shared_ptr<const Method> higher_degree(const Method &method, const ProblemOnLine &problem)
     {
       const auto higher = method.higher_degree();

@@ -11,10 +11,10 @@ namespace plumbline::study
   double averages_l2(const problem::Problem<1> &problem, const std::vector<double> &a,
                      const std::vector<double> &b = {});
 
-  /// How far a Galerkin solution may be wrong, its averages and its field, by the changes to h/2,
-  /// from 2 h and to degree p + 1, as estimate_error() has them in the plane.
-  /// @param points  where the error is estimated, too: by the same changes there, and by no less
-  /// than twice the root mean square of these over all points
+  /// The estimated error of a Galerkin solution, its averages and its field, from changes to h/2,
+  /// from 2 h and to degree p + 1, as estimate_error() does in the plane.
+  /// @param points  where the error is also estimated: from the same changes there, and at least
+  /// twice the root mean square of these over all points
   ErrorEstimate estimate_on_line(const Method &method, const problem::Problem<1> &problem,
                                  const SolutionOnLine &solution,
                                  const std::vector<dealii::Point<1>> &points = {});

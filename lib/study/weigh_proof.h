@@ -14,8 +14,8 @@ namespace plumbline::study
   /// Where m grows from level to level, a rule whose weights do not tend to areas need not have the
   /// nonlocal operator for its limit, and fields of low degree do not see it. Towards the local
   /// limit (regime delta-m) second moments decide; those of nodes that come and go at the ball's
-  /// edge rise by chance as well, which areas do not. What is proven wrong at every level, without
-  /// the others, stays so.
+  /// edge rise by chance as well, which areas do not. A rule proven wrong at every level by itself
+  /// stays so.
   /// @param levels  what is known at each
   /// @return  `incompatible`, or nothing
   LimitProof prove_by_levels(scene::Regime regime, const Trend &trend,

@@ -32,7 +32,7 @@ def moduli_of_weights(kernel, w, xi, *, i=None, points=None, state="plane strain
     xi      from the node to its neighbour, shape (n_bonds, 2) [length]
     i       index of the node, shape (n_bonds,); default: all bonds are of one node
     points  where the kernel is taken, relative to the node, shape (n_bonds, 2); default: xi
-    state   "plane strain" (as in scenes) or "plane stress": what E and nu are of
+    state   "plane strain" (as in scenes) or "plane stress": the state of E and nu
 
     Returns a dict of arrays with one value for each node: "nodes" (i, ascending), "C1111", "C1122",
     "C1212", "E", "nu", "shear along axes", "shear across axes", "anisotropy". Both axes are

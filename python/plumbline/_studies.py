@@ -205,7 +205,7 @@ def certify(scene, *, set=None, methods=None, reference_level=0, file=None):
     scene            as of run(): Study/regime = m with three mesh sizes, Reference/method,
                      Output/points; a meshfree rule in Methods/names confirms the values
     set, methods     as of run(); methods are names
-    reference_level  of Study/h at which the Galerkin method solves, from 1, the coarsest; 0: the
+    reference_level  level of Study/h for the Galerkin method, from 1, the coarsest; 0: the
                      finest
     file             where the certificate is written, for grade(..., problem=file); None: nowhere
 
@@ -215,8 +215,8 @@ def certify(scene, *, set=None, methods=None, reference_level=0, file=None):
     """
     text, changed, rules = _given(scene, set, methods)
     if rules:
-        raise ValueError(f"methods: '{rules[0].name}' is a rule in Python, which no other program "
-                         "could repeat; give names of plumbline.methods()")
+        raise ValueError(f"methods: '{rules[0].name}' is a rule in Python, which other programs "
+                         "cannot reproduce; give names of plumbline.methods()")
     certificate = _core.certify_json(text, changed, reference_level)
     if file is not None:
         with open(file, "w", encoding="utf-8") as out:

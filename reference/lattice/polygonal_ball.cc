@@ -37,7 +37,7 @@ namespace plumbline::reference
       std::string what_it_does() const override
       {
         return "replaces the ball by a polygon of " + std::to_string(n_sides_) +
-               " sides, so that its solutions tend to those of another operator";
+               " sides, so that its solutions tend to those of a different operator";
       }
 
       method::Capabilities can() const override

@@ -12,12 +12,12 @@ namespace plumbline::reference
   /// @param n_sides  a multiple of 4
   geometry::Polygon inscribed_polygon(double horizon, unsigned int n_sides);
 
-  /// ∫ C ξ_1² over the inscribed polygon, relative to that over the ball: what second moments, and
-  /// with them the local limit, are multiplied by where the polygon replaces the ball. In the
+  /// ∫ C ξ_1² over the inscribed polygon, relative to that over the ball: the factor of the second
+  /// moments, and so of the local limit, if the polygon replaces the ball. In the
   /// polygon the radius ends at δ cos α / cos θ, α = π/n, -α <= θ <= α about the normal of a side.
   /// For C = c (r/δ)^p it is the mean of (cos α / cos θ)^(p+4) over these θ; for a constant kernel
   ///   n/(2π) sin(2π/n) (2 + cos(2π/n))/3 = 1 - 4π²/(3n²) + O(n^-4).
-  /// Kernels that vanish at the horizon like (δ - r)^k are nearer to 1, by O(n^-2(k+1)). For bond
+  /// For kernels that vanish at the horizon like (δ - r)^k it is 1 - O(n^-2(k+1)). For bond
   /// tensors these moments ∫ C_ab ξ_c ξ_d are of fourth order in ξ/|ξ|, whose means over the
   /// polygon are those of the ball if n is a multiple of 8: the ratio is the same for all of them.
   /// Accuracy: relative 1e-14 for smooth profiles.

@@ -282,7 +282,7 @@ TEST_F(BadSolids, surface_corrections_are_for_free_bodies_of_bonds)
       scenes + "/state_based/bar.prm --set Methods/names=FA+volume",
       "'FA+volume' cannot do this scene: Material/model = variational with its dilatation");
   expect_refused(scenes + "/state_based/bar.prm --set Methods/names=FA+volume",
-                 "give constants without a dilatation: lambda = mu, which is nu = 1/4 in plane "
+                 "give constants without a dilatation term: lambda = mu, i.e. nu = 1/4 in plane "
                  "strain, or l = 4 k");
   expect_refused(scenes + "/check/check.prm --set Methods/names=FA+volume",
                  "'FA+volume' cannot do this scene: Domain/mesh = lattice");

@@ -404,7 +404,7 @@ TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
   expect_refused(set("Problem/constraint=0, 1"), "component");
   expect_refused(set("Fracture/toughness=z - 0.1"), "must be positive");
   expect_refused(set("Material/E=1 + x"), "constants that vary in space");
-  expect_refused("run " + plate_in_space(), "Fracture/toughness is for 'plumbline grow'");
+  expect_refused("run " + plate_in_space(), "only 'plumbline grow' uses Fracture/toughness");
 }
 
 TEST(GrowCommand, refuses_what_cannot_grow)
@@ -413,7 +413,7 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   const auto set = [&](const std::string &setting) { return body + "--set '" + setting + "'"; };
   expect_refused("grow " + std::string(PLUMBLINE_SCENES) + "/griffith/run.prm",
                  "these are missing: Fracture/toughness (G_c), Domain/cracks (the notch)");
-  expect_refused("run " + plate(), "Fracture/toughness is for 'plumbline grow'");
+  expect_refused("run " + plate(), "only 'plumbline grow' uses Fracture/toughness");
   expect_refused("crack " + plate(), "these are missing: Crack/notch (the notch's length)");
   expect_refused(set("Fracture/toughness=-1"), "Fracture/toughness = -1 must be positive");
   expect_refused(set("Fracture/toughness=x - 1"), "Fracture/toughness = -0.9875 at (0.0125");

@@ -44,12 +44,12 @@ namespace plumbline::report
               "of the "
               "Rayleigh wave speed, at most 0.75; the solution is symmetric to the last bit. This "
               "rests on one "
-              "mesh size, h = 0.5: run another Study/h to see how it depends on h.");
+              "mesh size, h = 0.5: run with another Study/h to see how it depends on h.");
     EXPECT_EQ(
         crack_view(moved(scene::CrackOutcome::arrests)).answer,
         "At 2 times its threshold the crack arrests after its tip advanced by 3 [length], 2 "
         "horizons; the solution is symmetric to the last bit. This rests on one mesh size, h = "
-        "0.5: run another Study/h to see how it depends on h.");
+        "0.5: run with another Study/h to see how it depends on h.");
   }
 
   TEST(CrackReport, HasUnitsOnTheAxesOfItsCharts)

@@ -26,7 +26,7 @@ namespace plumbline::scene
     keys.add("estimate", estimate,
              "Galerkin solutions whose error is estimated from outer quadrature, h/2, 2h and "
              "degree p+1: the reference, every solution, or none. The estimate can take ten to "
-             "twenty times as long as the solution, on meshes above all: write none for first "
+             "twenty times as long as the solution, especially on meshes: write none for first "
              "trials. automatic: the reference; every solution if there is neither a reference nor "
              "an exact solution.");
     keys.add("tolerance", tolerance, between(0, 1),
