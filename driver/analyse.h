@@ -21,8 +21,8 @@ namespace plumbline::driver
     study::Analysis analysis;
     report::View (*view)(const study::StudyResults &) = report::default_view;
     std::string command = analysis.name; ///< whose files they are
-    std::string file = analysis.name; ///< the stem of its journal and numbers
-    bool goes_on = true;              ///< from what an interrupted command has left
+    std::string file = analysis.name;    ///< the stem of its journal and numbers
+    bool goes_on = true;                 ///< from what an interrupted command has left
     /// Receives these earlier results, on the first rank.
     std::function<void(const study::StudyResults &earlier)> take_over = {};
     bool has_checkpoint = false;                            ///< see study::Checkpoints

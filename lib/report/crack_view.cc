@@ -188,7 +188,7 @@ namespace plumbline::report
     View view{"Dynamic fracture"};
     view.parts = {thresholds(results),
                   failures(results, "Levels without a result", "no result, because")};
-    view.omitted = study::left_out_of_cracks();
+    view.parts.push_back(omitted_part(study::left_out_of_cracks()));
     const auto moved = std::find_if(results.records.begin(), results.records.end(),
                                     [](const Record &record) { return record.has("advance"); });
     if (moved == results.records.end())

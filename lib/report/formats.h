@@ -101,9 +101,11 @@ namespace plumbline::report
     Table table = {};            ///< without columns: a section of words
     bool is_detail = false;      ///< not for the terminal
     Fold fold = Fold::none;
-    std::string lead = {};   ///< words above the table
-    bool is_warning = false; ///< they are
-    std::string file = {};   ///< of the table, without ending; empty: ID_table
+    std::string lead = {};               ///< words above the table
+    bool is_warning = false;             ///< they are
+    std::string file = {};               ///< of the table, without ending; empty: ID_table
+    bool is_excerpt = false;             ///< of that file, which is written elsewhere
+    std::vector<std::string> items = {}; ///< a list below the table
   };
 
   std::string to_csv(const Table &table);      ///< unrounded, heads in the first line

@@ -391,8 +391,8 @@ namespace plumbline::report
       return view;
     const Record &record = *grown.front();
     view.answer = verdict(record);
-    view.model = model(record);
-    view.omitted = study::left_out_of_growth(record);
+    view.parts.push_back(model_part(model(record)));
+    view.parts.push_back(omitted_part(study::left_out_of_growth(record)));
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()), record.key.problem,
                   record.text("end")};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});

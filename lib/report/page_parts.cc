@@ -158,6 +158,13 @@ namespace plumbline::report::page
     return part.file.empty() ? part.id + "_table" : part.file;
   }
 
+  bool is_shown(const Part &part)
+  {
+    return !part.table.rows.empty() ||
+           (part.table.columns.empty() &&
+            !(part.lead.empty() && part.words.empty() && part.items.empty()));
+  }
+
   std::vector<Part> with_rows(std::vector<Part> parts)
   {
     parts.erase(std::remove_if(parts.begin(), parts.end(),
@@ -171,19 +178,19 @@ namespace plumbline::report::page
     Data list = Data::array();
     for (const Part &part : parts)
     {
-      const bool is_of_words = part.table.columns.empty() && !(part.lead + part.words).empty();
-      if (part.table.rows.empty() && !is_of_words)
+      if (!is_shown(part))
         continue;
-      Data data = {
-          {"id", part.id},
-          {"head", part.head},
-          {"lead", part.lead},
-          {"is_warning", part.is_warning},
-          {"table", table(part.table)},
-          {"words", part.words},
-          {"file", folder.empty() || is_of_words ? "" : folder + "/" + file_of(part) + ".csv"},
-          {"is_open", part.fold == Fold::open},
-          {"folds", Data::array()}};
+      const bool has_file = !folder.empty() && !part.table.rows.empty();
+      Data data = {{"id", part.id},
+                   {"head", part.head},
+                   {"lead", part.lead},
+                   {"is_warning", part.is_warning},
+                   {"table", table(part.table)},
+                   {"words", part.words},
+                   {"file", has_file ? folder + "/" + file_of(part) + ".csv" : ""},
+                   {"list", part.items.empty() ? Data() : Data{{"items", part.items}}},
+                   {"is_open", part.fold == Fold::open},
+                   {"folds", Data::array()}};
       if (part.fold == Fold::none || list.empty())
         list.push_back(std::move(data));
       else

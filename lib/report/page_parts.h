@@ -56,10 +56,13 @@ namespace plumbline::report::page
   /// Of its table, without ending.
   std::string file_of(const Part &part);
 
+  /// It has rows, words or a list.
+  bool is_shown(const Part &part);
+
   /// Those whose table has rows.
   std::vector<Part> with_rows(std::vector<Part> parts);
 
-  /// For `part`: those with rows or with words alone.
+  /// For `part`: those that are shown.
   /// @param folder  where write_study writes the tables; empty: they are in no files
   Data parts(const std::vector<Part> &parts, const std::string &folder = {});
 } // namespace plumbline::report::page

@@ -246,29 +246,27 @@ namespace plumbline::report
     }
   } // namespace
 
-  bool has_damage_maps(const SamplingResults &results)
+  std::vector<Picture> sampling_pictures(const SamplingResults &results)
   {
     const auto is_growth = [](const CaseStatistics &one)
     { return one.field && one.values.count("broken bonds") > 0; };
-    return std::any_of(results.cases.begin(), results.cases.end(), is_growth);
-  }
-
-  void write_damage_maps(const SamplingResults &results, const std::filesystem::path &folder)
-  {
-    if (!has_damage_maps(results))
-      return;
+    if (std::none_of(results.cases.begin(), results.cases.end(), is_growth))
+      return {};
     const CaseStatistics &one = results.cases.front();
     const study::SampleField &places = one.field->places;
     std::vector<dealii::Point<2>> nodes;
     for (std::size_t i = 0; i < places.x.size(); ++i)
       nodes.push_back({places.x[i], places.y[i]});
     const MapCells cells = cells_of(nodes, one.of.h);
-    write_file(folder / "damage.gp",
-               damage_script({map_of("mean", nodes, one.field->mean, cells),
-                              map_of("deviation", nodes, one.field->deviation, cells)},
-                             "damage.svg", "Damage: broken bonds", cells));
-    run_gnuplot(folder, "damage.gp", {"damage.svg"});
-    sharpen(folder / "damage.svg");
+    const std::string title = "Damage: broken bonds";
+    const bool is_cut = results.cases.back().sets.back().negative_part > 0;
+    return {{"damage", title,
+             damage_script({map_of("mean", nodes, one.field->mean, cells),
+                            map_of("deviation", nodes, one.field->deviation, cells)},
+                           "damage.svg", title, cells),
+             std::string("Mean and standard deviation, over the samples of the largest set, of the "
+                         "fraction of each node's bonds that is broken or cut.") +
+                 (is_cut ? " Where the variance is negative, the deviation is drawn as 0." : "")}};
   }
 
   std::vector<DataChart> sampling_charts(const SamplingResults &results)

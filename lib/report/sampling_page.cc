@@ -1,13 +1,9 @@
 #include "report/sampling_page.h"
 
 #include "report/counted.h"
-#include "report/page_parts.h"
 #include "report/text_table.h"
-#include "report/view.h"
 #include "study/sampling_balance.h"
 #include "study/seeds.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,136 +176,96 @@ namespace plumbline::report
       return sentences;
     }
 
+    /// In the folder of tables, without ending.
     std::string samples_file(const CaseStatistics &one)
     {
-      return "sample/samples_" +
-             slug(one.of.method + "_" + one.of.problem + "_" + one.of.series + "_" +
-                  rounded(one.of.h)) +
-             ".csv";
+      return "samples_" + slug(one.of.method + "_" + one.of.problem + "_" + one.of.series + "_" +
+                               rounded(one.of.h));
     }
 
-    /// Of each method at its finest level, folded.
-    Data samples(const SamplingResults &r)
+    /// Of a method at its finest level.
+    Part samples(const SamplingResults &r, const CaseStatistics &one)
     {
       constexpr std::size_t most_rows = 100, most_variables = 10; // that a page has room for
-      Data list = Data::array();
-      for (const CaseStatistics &one : r.cases)
-      {
-        if (!one.is_finest || one.samples.empty())
-          continue;
-        std::string what = "Samples of " + one.of.method +
-                           (one.of.problem.empty() ? "" : ", " + one.of.problem) + ", " +
-                           one.of.series + ", h = " + rounded(one.of.h);
-        if (one.samples.size() > most_rows)
-          what += ": the first " + std::to_string(most_rows) + " of " +
-                  std::to_string(one.samples.size());
-        if (r.variables.size() > most_variables)
-          what += ", with the first " + std::to_string(most_variables) + " of " +
-                  std::to_string(r.variables.size()) + " variables";
-        Data table = page::table(sampling_samples_table(r, one, most_rows, most_variables));
-        table["summary"] = what;
-        table["file"] = samples_file(one);
-        list.push_back(std::move(table));
-      }
-      return list;
+      Part part{"samples",
+                "Samples of " + one.of.method +
+                    (one.of.problem.empty() ? "" : ", " + one.of.problem) + ", " + one.of.series +
+                    ", h = " + rounded(one.of.h),
+                "",
+                sampling_samples_table(r, one, most_rows, most_variables),
+                true,
+                Fold::closed};
+      if (one.samples.size() > most_rows)
+        part.head += ": the first " + std::to_string(most_rows) + " of " +
+                     std::to_string(one.samples.size());
+      if (r.variables.size() > most_variables)
+        part.head += ", with the first " + std::to_string(most_variables) + " of " +
+                     std::to_string(r.variables.size()) + " variables";
+      part.file = samples_file(one);
+      part.is_excerpt = true;
+      return part;
     }
 
-    std::string page_of(const SamplingResults &r, const std::vector<std::string> &faults,
-                        const std::filesystem::path &dir)
+    /// What any page has.
+    study::StudyResults header(const SamplingResults &r)
     {
-      std::vector<std::string> facts = {base::word(r.sampling.rule),
-                                        counted(r.n_samples, "sample")};
+      study::StudyResults results;
+      results.analysis = "sample";
+      results.scene_name = r.scene_name;
+      results.purpose = r.purpose;
+      results.scene_text = r.scene_text;
+      return results;
+    }
+
+    View sampling_view(const SamplingResults &r, const std::vector<std::string> &faults)
+    {
+      constexpr std::size_t most_of_rule = 4;
+      View view{"Samples"};
+      view.answer = verdict(r, faults);
+      view.facts = {base::word(r.sampling.rule), counted(r.n_samples, "sample")};
       if (r.n_expected > 0)
-        facts.push_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
-      Data data = page::begin("sample", r.scene_name, r.purpose, facts);
-      data["verdict"] = verdict(r, faults);
-      data["findings"] = r.findings;
-      data["has_findings"] = !r.findings.empty();
-      data["charts"] = page::charts(sampling_charts(r), dir, "sample");
-      if (has_damage_maps(r))
-        data["charts"].push_back(page::figure(
-            {dir / "sample/damage.svg", "damage-", "Damage: broken bonds",
-             "Mean and standard deviation, over the samples of the largest set, of the fraction of "
-             "each node's bonds that is broken or cut." +
-                 std::string(best(r)->negative_part > 0
-                                 ? " Where the variance is negative, the deviation is drawn as 0."
-                                 : ""),
-             "Picture", "sample/damage.svg"}));
-      data["has_results"] = !r.findings.empty() || !data["charts"].empty();
-      data["own"] = is_own(r) ? words_of_own : "";
-      data["fields"] = page::table(sampling_field_table(r));
-      data["interpolant"] = has_interpolant(r) ? words_of_interpolant : "";
-      data["cheapest"] = page::table(sampling_cheapest_table(r));
-      data["balance"] = balance(r);
-      data["has_balance"] = !r.balance.empty();
-      data["quantities"] = page::table(sampling_quantity_table(r));
-      data["failures"] = page::table(sampling_failure_table(r));
-      data["rule"] = rule_words(r);
-      data["samples"] = samples(r);
-      data["scene_text"] = r.scene_text;
-      return fill("sample", data);
+        view.facts.emplace_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
+      view.constants = short_lines(rule_words(r), most_of_rule);
+      if (is_own(r))
+        view.findings.emplace_back(words_of_own);
+      for (const auto &sentences : {r.findings, balance(r)})
+        view.findings.insert(view.findings.end(), sentences.begin(), sentences.end());
+      view.galleries = {{"picture", "Results", "", sampling_charts(r), sampling_pictures(r)}};
+      Part quantities{"quantities", "Quantities at the finest level", "In the units of the scene.",
+                      sampling_quantity_table(r)},
+          fields{"fields", "Statistics of the field",
+                 has_interpolant(r) ? words_of_interpolant : "", sampling_field_table(r)},
+          rule{"rule", "Sampling rule and samples", ""};
+      quantities.file = quantities.id;
+      fields.file = fields.id;
+      rule.lead = rule_words(r);
+      view.parts = {
+          quantities,
+          fields,
+          {"cheapest", "The cheapest choice of h and samples for each error",
+           "Errors are relative to the norm of the mean.", sampling_cheapest_table(r), true},
+          {"failures", "Failed samples", "Failed samples; the results are those of the others.",
+           sampling_failure_table(r), true},
+          rule};
+      for (const CaseStatistics &one : r.cases)
+      {
+        if (one.is_finest && !one.samples.empty())
+          view.parts.push_back(samples(r, one));
+        view.tables.push_back({samples_file(one), sampling_samples_table(r, one)});
+      }
+      return view;
     }
   } // namespace
 
   std::string sampling_summary(const SamplingResults &r, const std::string &files)
   {
-    constexpr std::size_t most_of_rule = 4, most_of_one = 2, most_sentences = 3;
-    std::vector<std::string> end = {""}, sentences = r.findings;
-    const auto add = [&](const std::string &words, std::size_t most, std::size_t indent = 0)
-    {
-      const std::vector<std::string> lines = short_lines(words, most, indent);
-      end.insert(end.end(), lines.begin(), lines.end());
-    };
-    add(rule_words(r), most_of_rule);
-    for (const std::string &one : balance(r))
-      sentences.push_back(one);
-    if (is_own(r))
-      sentences.insert(sentences.begin(), words_of_own);
-    for (std::size_t i = 0; i < std::min(most_sentences, sentences.size()); ++i)
-      add("- " + sentences[i], most_of_one, 2);
-    if (sentences.size() > most_sentences)
-      end.push_back("  and " + std::to_string(sentences.size() - most_sentences) +
-                    " more findings in the report");
-    end.push_back("report: " + files);
-    end.emplace_back();
-    add(verdict(r, {}), most_of_one);
-    return summary(
-        {heading(r.scene_name, r.purpose)},
-        {{"", "", "", sampling_quantity_table(r)}, {"", "", "", sampling_field_table(r)}}, end);
+    return study_summary(sampling_view(r, {}), header(r), files);
   }
-
-  namespace
-  {
-    std::string markdown(const SamplingResults &r, const std::vector<std::string> &faults)
-    {
-      std::string text = "# Samples: " + r.scene_name + "\n\n" + verdict(r, faults) + "\n\n" +
-                         to_markdown(sampling_field_table(r)) + "\n" +
-                         to_markdown(sampling_quantity_table(r)) + "\n" + rule_words(r) + "\n\n";
-      if (is_own(r))
-        text += std::string(words_of_own) + "\n\n";
-      for (const auto &sentences : {r.findings, balance(r)})
-        for (const std::string &one : sentences)
-          text += "- " + one + "\n";
-      return text;
-    }
-  } // namespace
 
   void write_sampling(const SamplingResults &results, const std::vector<std::string> &faults,
                       const std::filesystem::path &dir)
   {
     write_file(dir / "sample.json", sampling_json(results));
-    write_file(dir / "sample.md", markdown(results, faults));
-    write_file(dir / "sample/fields.csv", to_csv(sampling_field_table(results)));
-    write_file(dir / "sample/quantities.csv", to_csv(sampling_quantity_table(results)));
-    for (const CaseStatistics &one : results.cases)
-      write_file(dir / samples_file(one), to_csv(sampling_samples_table(results, one)));
-    write_with_pictures(
-        dir / "sample.html",
-        [&]
-        {
-          write_charts(sampling_charts(results), dir / "sample");
-          write_damage_maps(results, dir / "sample");
-        },
-        [&] { return page_of(results, faults, dir); });
+    write_view(sampling_view(results, faults), header(results), dir);
   }
 } // namespace plumbline::report

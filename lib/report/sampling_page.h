@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/data_charts.h"
+#include "report/view.h"
 #include "study/sampling.h"
 
 #include <filesystem>
@@ -40,12 +40,8 @@ namespace plumbline::report
   /// quasi-Monte Carlo); the spectrum of a field of modes.
   std::vector<DataChart> sampling_charts(const study::SamplingResults &results);
 
-  /// Whether samples are of growth, whose damage has a mean to be drawn.
-  bool has_damage_maps(const study::SamplingResults &results);
-
-  /// Draw it, and its deviation, into damage.svg of a folder; nothing where there is none.
-  void write_damage_maps(const study::SamplingResults &results,
-                         const std::filesystem::path &folder);
+  /// Of samples of growth: mean and deviation of the damage; nothing of others.
+  std::vector<Picture> sampling_pictures(const study::SamplingResults &results);
 
   /// What the terminal shows: 25 lines of 120 columns at most, with the answer last.
   /// @param files  where the report is

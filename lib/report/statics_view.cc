@@ -261,23 +261,27 @@ namespace plumbline::report
                                     "estimate."
                                   : "The scene did not ask for the estimates, so nothing says how "
                                     "far the reference can be trusted.";
-      const std::string n = std::to_string(doubtful.rows.size());
-      Part doubts = folded("doubtful", "Which differences (" + n + ")", doubtful,
-                           "⚠ " + n +
-                               " differences are less than ten times the reference’s own estimate. "
+      std::vector<Part> parts = {
+          head, folded("estimates",
+                       "Estimates (" + counted(estimates.rows.size(), "solution") + ")", estimates,
+                       has_reference && !results.estimates.empty()
+                           ? "Of the reference, " + results.references.front().method +
+                                 ", and of the other Galerkin solutions."
+                           : "",
+                       by_length(estimates))};
+      if (const std::size_t n = doubtful.rows.size(); n > 0)
+      {
+        parts.push_back(folded("doubtful",
+                               "⚠ " + std::to_string(n) +
+                                   " differences are less than ten times the reference’s own "
+                                   "estimate",
+                               doubtful,
                                "They may be the reference’s error as much as the method’s: refine "
                                "the reference, or read them as “equal to the reference”.",
-                           Fold::open);
-      doubts.is_warning = true;
-      return {head,
-              folded("estimates", "Estimates (" + counted(estimates.rows.size(), "solution") + ")",
-                     estimates,
-                     has_reference && !results.estimates.empty()
-                         ? "Of the reference, " + results.references.front().method +
-                               ", and of the other Galerkin solutions."
-                         : "",
-                     by_length(estimates)),
-              doubts};
+                               by_length(doubtful)));
+        parts.back().is_warning = true;
+      }
+      return parts;
     }
 
     /// Cut cells that were recomputed.

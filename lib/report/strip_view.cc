@@ -244,10 +244,10 @@ namespace plumbline::report
   {
     View view{"Stationary crack"};
     view.answer = answer(results);
-    view.model = model(results);
     view.facts = {std::to_string(results.records.size()) + " strips"};
     view.parts = {strips(results), limits(results),
-                  failures(results, "Levels without a result", "no result, because")};
+                  failures(results, "Levels without a result", "no result, because"),
+                  model_part(model(results))};
     view.galleries = {{"picture", "Energy and opening at the crack tip", "", charts(results)}};
     return view;
   }

@@ -205,7 +205,8 @@ namespace plumbline::report
 
   std::string study_summary(const View &view, const StudyResults &results, const std::string &files)
   {
-    constexpr std::size_t most_verdicts = 9, most_words = 7, most_of_one = 3, most_missed = 2;
+    constexpr std::size_t most_verdicts = 9, most_words = 7, most_of_one = 3, most_missed = 2,
+                          most_findings = 3, most_of_finding = 2;
     Lines begin = {heading(results.scene_name, results.purpose)}, end;
     begin.insert(begin.end(), view.constants.begin(), view.constants.end());
     if (!view.verdicts.rows.empty() && view.brief.empty())
@@ -217,12 +218,18 @@ namespace plumbline::report
                            n_columns));
     for (const std::string &line : expectation_lines(results, most_missed))
       end.push_back(fitted(line, n_columns));
-    end.push_back("report: " + files);
-    const auto say = [&](const std::string &text, std::size_t most)
+    const auto say = [&](const std::string &text, std::size_t most, std::size_t indent = 0)
     {
-      const Lines words = short_lines(text, most);
+      const Lines words = short_lines(text, most, indent);
       end.insert(end.end(), words.begin(), words.end());
     };
+    const std::size_t n_findings = view.findings.size();
+    for (std::size_t i = 0; i < std::min(most_findings, n_findings); ++i)
+      say("- " + view.findings[i], most_of_finding, 2);
+    if (n_findings > most_findings)
+      end.push_back("  and " + std::to_string(n_findings - most_findings) +
+                    " more findings in the report");
+    end.push_back("report: " + files);
     if (const std::string answer = answer_of(view); !answer.empty())
       end.emplace_back();
     if (view.statements.empty())

@@ -17,6 +17,8 @@ namespace plumbline::report
 
   Table without_empty_columns(const Table &table)
   {
+    if (table.rows.empty())
+      return table; // it is still a table, see page::is_shown
     Table result;
     result.caption = table.caption;
     result.rows.resize(table.rows.size());

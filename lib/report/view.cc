@@ -364,7 +364,7 @@ namespace plumbline::report
     Data page_gallery(const View &view, const Gallery &gallery, const std::filesystem::path &folder,
                       const std::string &charts)
     {
-      Data large = Data::array(), small = Data::array();
+      Data large = Data::array(), small = Data::array(), pictures = Data::array();
       for (std::size_t i = 0; i < gallery.charts.size(); ++i)
       {
         const DataChart &chart = gallery.charts[i];
@@ -377,12 +377,12 @@ namespace plumbline::report
       for (const Picture &picture : gallery.pictures)
       {
         const bool has_data = !picture.data.rows.empty();
-        large.push_back(page::figure({folder / charts / (picture.name + ".svg"), picture.name + "-",
-                                      picture.title, picture.caption, has_data ? "Data" : "Picture",
-                                      charts + "/" + picture.name + (has_data ? ".csv" : ".svg"),
-                                      true, view.redraw}));
+        pictures.push_back(page::figure(
+            {folder / charts / (picture.name + ".svg"), picture.name + "-", picture.title,
+             picture.caption, has_data ? "Data" : "Picture",
+             charts + "/" + picture.name + (has_data ? ".csv" : ".svg"), true, view.redraw}));
       }
-      if (large.empty() && small.empty())
+      if (large.empty() && small.empty() && pictures.empty())
         return {};
       const std::size_t n = small.size();
       Data grid = n == 0 ? Data() : Data{{"charts", std::move(small)}};
@@ -396,6 +396,7 @@ namespace plumbline::report
               {"title", gallery.title},
               {"words", gallery.words},
               {"large", std::move(large)},
+              {"pictures", std::move(pictures)},
               {"folded", is_folded ? grid : Data()},
               {"grid", is_folded ? Data() : grid},
               {"note", is_folded ? "" : gallery.note}};
@@ -431,11 +432,14 @@ namespace plumbline::report
       data["is_partial"] = !results.is_complete;
       data["setting"] = view.setting;
       data["advice"] = page_advice(view);
+      data["findings"] = view.findings.empty()
+                             ? Data()
+                             : Data{{"list", view.findings},
+                                    {"n", view.findings.size()},
+                                    {"is_open", view.findings.size() <= at_a_glance}};
       data["answer"] = view.statements.empty() ? answer_of(view) : "";
       data["equation"] = equation(results);
-      data["model"] = view.model;
       data["scene_text"] = results.scene_text;
-      data["omitted"] = view.omitted.empty() ? Data() : Data{{"rows", view.omitted}};
       data["verdicts"] = page_verdicts(view);
       data["expectations"] = page::expectations(results);
       data["warnings"] = results.warnings;
@@ -468,6 +472,9 @@ namespace plumbline::report
       std::string text = "# " + view.title + ": " + results.scene_name + "\n\n";
       if (const std::string answer = answer_of(view); !answer.empty())
         text += answer + "\n\n";
+      for (const std::string &finding : view.findings)
+        text += "- " + finding + "\n";
+      text += view.findings.empty() ? "" : "\n";
       for (const std::string &warning : results.warnings)
         text += "Warning: " + warning + ".\n\n";
       if (!view.verdicts.rows.empty())
@@ -475,16 +482,14 @@ namespace plumbline::report
       if (!view.question.empty())
         text += "\n" + view.question + "\n";
       for (const Part &part : view.parts)
-        if (!part.table.rows.empty() || part.table.columns.empty())
+        if (page::is_shown(part) && !part.is_excerpt)
+        {
           text += "\n## " + part.head + "\n\n" + (part.lead.empty() ? "" : part.lead + "\n\n") +
                   (part.table.rows.empty() ? "" : to_markdown(part.table)) +
                   (part.words.empty() ? "" : "\n" + part.words + "\n");
-      if (!view.model.empty())
-        text += "\n" + view.model + "\n";
-      if (!view.omitted.empty())
-        text += "\n## What was left out of the model\n\n";
-      for (const std::string &one : view.omitted)
-        text += "- " + one + "\n";
+          for (const std::string &item : part.items)
+            text += "- " + item + "\n";
+        }
       return text + "\n## The scene as read\n\n```\n" + results.scene_text + "```\n";
     }
 
@@ -525,14 +530,33 @@ namespace plumbline::report
     }
   } // namespace
 
+  Part model_part(const std::string &words)
+  {
+    return {"model", "The model", words};
+  }
+
+  Part omitted_part(const std::vector<std::string> &phrases)
+  {
+    Part part{"omitted", "What was left out of the model", ""};
+    part.items = phrases;
+    return part;
+  }
+
   void write_study(const View &view, const StudyResults &results,
                    const std::filesystem::path &folder)
   {
+    write_file(folder / (files_of(view, results).numbers + ".json"), io::to_json(results));
+    write_view(view, results, folder);
+  }
+
+  void write_view(const View &view, const StudyResults &results,
+                  const std::filesystem::path &folder)
+  {
     const FileNames files = files_of(view, results);
-    write_file(folder / (files.numbers + ".json"), io::to_json(results));
     write_file(folder / (files.page + ".md"), markdown(view, results));
     for (const Part &part : page::with_rows(view.parts))
-      write_table(part, folder / files.tables);
+      if (!part.is_excerpt)
+        write_table(part, folder / files.tables);
     write_with_pictures(
         folder / (files.page + ".html"), [&] { draw(view, folder / files.charts); },
         [&] { return page_of(view, results, folder); });

@@ -144,18 +144,16 @@ namespace plumbline::report
     std::vector<std::string> remarks = {};  ///< on them, a paragraph each
     std::vector<Card> cards = {};           ///< on the page
     std::vector<std::string> advice = {};   ///< the same in short: a line of the terminal each
-    std::string model = {};                 ///< what was solved, and what was left out
-    std::vector<std::string> omitted = {};  ///< from the model, a phrase each
+    std::vector<std::string> findings = {}; ///< besides the answer, a sentence each
     std::string question = {};              ///< what the verdicts answer
     std::string words = {};                 ///< what the verdicts mean
     Table verdicts = {};
     std::vector<std::string> facts = {}; ///< below the page's title
     std::vector<Part> parts = {};
     std::vector<Gallery> galleries = {};
-    std::vector<DataTable> tables = {}; ///< as CSV alone
-    /// What the terminal shows instead of verdicts and parts, after these lines.
-    std::vector<std::string> constants = {};
-    std::vector<Part> brief = {};
+    std::vector<DataTable> tables = {};      ///< as CSV alone
+    std::vector<std::string> constants = {}; ///< lines that the terminal begins with
+    std::vector<Part> brief = {};            ///< shown there instead of verdicts and parts
   };
 
   /// The class of a cell on pages.
@@ -182,6 +180,10 @@ namespace plumbline::report
   /// the first part with verdicts: "stable: FA, Q1; unstable: OPT".
   std::string answer_of(const View &view);
 
+  /// Words on what was solved, and phrases on what was not.
+  Part model_part(const std::string &words);
+  Part omitted_part(const std::vector<std::string> &phrases);
+
   /// All tables but for details, with their words.
   std::string study_text(const View &view, const StudyResults &results);
 
@@ -206,4 +208,8 @@ namespace plumbline::report
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   void write_study(const View &view, const StudyResults &results,
                    const std::filesystem::path &folder);
+
+  /// The same without numbers, ANALYSIS.json.
+  void write_view(const View &view, const StudyResults &results,
+                  const std::filesystem::path &folder);
 } // namespace plumbline::report

@@ -76,7 +76,10 @@ namespace plumbline::report
     std::string text_of(const study::StudyResults &results)
     {
       const View view = growth_view(results);
-      return view.model + "\n" + study_summary(view, results, "grow.html");
+      std::string model;
+      for (const Part &part : view.parts)
+        model += part.id == "model" ? part.words : "";
+      return model + "\n" + study_summary(view, results, "grow.html");
     }
 
     std::string in_one_line(std::string text)

@@ -85,6 +85,9 @@ namespace plumbline::report
       EXPECT_TRUE(holds(html, part)) << part;
     EXPECT_EQ(fixture::count(html, "role=\"img\""), 22u);
     EXPECT_EQ(fixture::count(html, "<section"), fixture::count(html, "</section>"));
+    study::StudyResults trusted = fixture::results();
+    trusted.references.clear();
+    EXPECT_FALSE(holds(page_of(trusted), "differences are less than"));
     EXPECT_EQ(fixture::count(html, "<details"), fixture::count(html, "</details>"));
     EXPECT_EQ(fixture::count(html, "<svg"), fixture::count(html, "</svg>"));
   }

@@ -64,7 +64,7 @@ namespace plumbline::report
     const View view = strip_view(r);
     EXPECT_EQ(view.answer,
               "tip energy (m = 3) of 2 methods: limits between 0.5 and 0.51, 0.01961 apart.");
-    ASSERT_EQ(view.parts.size(), 3u);
+    ASSERT_EQ(view.parts.size(), 4u); // three tables, and the model
     EXPECT_EQ(view.parts[0].table.rows.size(), 8u);
     EXPECT_EQ(view.parts[1].table.rows.size(), 2u);
     std::vector<std::string> names;

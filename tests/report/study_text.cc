@@ -1,10 +1,10 @@
+#include "report/text_table.h"
 #include "report/view.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace
 {
@@ -50,15 +50,6 @@ namespace
     for (auto &one : results.expectations)
       one.subject = std::string(200, 's');
     return results;
-  }
-
-  std::vector<std::string> lines_of(const std::string &text)
-  {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);)
-      lines.push_back(line);
-    return lines;
   }
 
   std::size_t width(const std::string &line)
@@ -131,8 +122,10 @@ TEST(StudyPage, folds_parts_into_the_section_before_them_and_links_sections)
   StudyResults results;
   results.analysis = "stability";
   report::View view = long_view(1);
-  Part words{"words", "Words", "a sentence <", {}}, nothing{"nothing", "Nothing", "", {}}, fold;
+  Part words{"words", "Words", "a sentence <", {}}, nothing{"nothing", "Nothing", "of a table", {}},
+      fold;
   nothing.table.columns = {{"a"}};
+  nothing.table = without_empty_columns(nothing.table);
   fold.id = fold.file = "details";
   fold.head = "More of it";
   fold.table = view.verdicts;
