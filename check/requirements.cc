@@ -14,6 +14,8 @@ namespace plumbline::check
 {
   using namespace meshfree;
 
+  const char *const where_lengths_are_given = " (Study/h, and Study/m or Study/horizon)";
+
   const char *const requirements_help =
       "Properties that the weights must have; otherwise the exit code is 1. A list; may be "
       "repeated. ac: moments of degree 1 and 2 are exact at every node, to 1e-5 or to the digits "
@@ -29,7 +31,7 @@ namespace plumbline::check
   {
     constexpr std::size_t most_named = 5;
 
-    const std::string cause_word = "cause: ", question = "does the scene belong to these bonds? ";
+    const std::string cause_word = "cause: ", question = "do h and horizon belong to these bonds? ";
 
     std::string point(const dealii::Point<2> &x)
     {
@@ -303,18 +305,16 @@ namespace plumbline::check
                    spacing = found.level.node_size, longest = longest_bond(found);
       std::string what;
       if (!found.level.is_near())
-        what = "the nodes' spacing is " + base::to_text(spacing, 6) +
-               ", but the nearest level of the scene has h = " + base::to_text(h, 6) +
-               " and the horizon " + base::to_text(horizon, 6);
+        what = "the nodes' spacing is " + base::to_text(spacing, 6) + ", but h is " +
+               base::to_text(h, 6) + " and the horizon " + base::to_text(horizon, 6);
       else if (longest > 0 && std::abs(longest - horizon) > shell * spacing)
-        what = "the longest bond is " + base::to_text(longest, 6) +
-               ", but the scene's horizon is " + base::to_text(horizon, 6) + " for a spacing of " +
-               base::to_text(spacing, 6);
+        what = "the longest bond is " + base::to_text(longest, 6) + ", but the horizon is " +
+               base::to_text(horizon, 6) + " for a spacing of " + base::to_text(spacing, 6);
       return what.empty() ? ""
-                          : question + what +
-                                "; give Study/h and Study/m (or Study/horizon) of your bonds and "
-                                "check again; until then all moments are compared with those of "
-                                "a different ball, and no cause is named";
+                          : question + what + "; give the h and the horizon of your bonds" +
+                                where_lengths_are_given +
+                                " and check again; until then all moments are compared with those "
+                                "of a different ball, and no cause is named";
     }
 
     std::vector<std::string> interior_complaints(const Findings &found,

@@ -22,6 +22,9 @@ namespace plumbline::check
   /// The text for --help.
   extern const char *const requirements_help;
 
+  /// In complaints, for scenes.
+  extern const char *const where_lengths_are_given;
+
   /// What makes the exit code 1: requirements that do not hold; a matrix that is not positive
   /// definite, a cause of all weights, outliers, whatever is required.
   std::vector<std::string> complaints(const Findings &found, const Requirements &required);

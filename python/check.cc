@@ -107,6 +107,9 @@ namespace plumbline::python
     {
       for (std::size_t at = 0; (at = text.find("(line ", at)) != std::string::npos; at += 7)
         text.replace(at, 6, "(index ");
+      const std::string of_scenes = check::where_lengths_are_given;
+      if (const std::size_t at = text.find(of_scenes); at != std::string::npos)
+        text.erase(at, of_scenes.size());
       return text;
     }
 

@@ -314,18 +314,18 @@ TEST(CheckCauses, threads_are_taken)
 // a scene of another mesh size or horizon: the bonds, which are right, are not blamed
 TEST(CheckCauses, a_scene_of_other_bonds_is_asked_about_first)
 {
-  const std::string question = "does the scene belong to these bonds? ";
+  const std::string question = "do h and horizon belong to these bonds? ";
   struct Other
   {
     std::string changes, numbers;
   };
   for (const Other &other :
-       {Other{
-            "--set Study/h=0.25 --set Study/m=1.6",
-            "the nodes' spacing is 0.125, but the nearest level of the scene has h = 0.25 and the "
-            "horizon 0.4; give"},
-        Other{"--set Study/m=5", "the longest bond is 0.450694, but the scene's horizon is 0.625 "
-                                 "for a spacing of 0.125; give"}})
+       {Other{"--set Study/h=0.25 --set Study/m=1.6",
+              "the nodes' spacing is 0.125, but h is 0.25 and the horizon 0.4; give the h and the "
+              "horizon of your bonds (Study/h, and Study/m or Study/horizon)"},
+        Other{"--set Study/m=5",
+              "the longest bond is 0.450694, but the horizon is 0.625 for a spacing of 0.125; "
+              "give"}})
   {
     const Outcome outcome = check(nodes_file, bonds_file, other.changes);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;

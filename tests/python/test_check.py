@@ -184,3 +184,15 @@ def test_a_body_with_free_surfaces_and_a_crack(square):
         plumbline.check(nodes, volumes, i, j, w, KERNEL, boxes=square, boundary="open")
     with pytest.raises(plumbline.InputError, match="cracks: crack 0 has its points 0 and 1"):
         plumbline.check(nodes, volumes, i, j, w, KERNEL, cracks=[[(.3, .5), (.3, .5)]], **given)
+
+
+def test_another_horizon_is_asked_about_before_causes():
+    nodes = lattice(10, 3)
+    r = np.linalg.norm(nodes[:, None] - nodes, axis=2)
+    i, j = np.nonzero((r > 0) & (r < .3015) & np.all((nodes > 0) & (nodes < 1), axis=1)[:, None])
+    found = plumbline.check(nodes, np.full(len(nodes), .01), i, j, np.full(len(i), .01),
+                            plumbline.Kernel("linear-decay", .5), boxes=((0, 0), (1, 1)))
+    question = found["complaints"][0]
+    assert question.startswith("do h and horizon belong to these bonds? the longest bond is 0.3, but the horizon is 0.5")
+    assert "Study" not in question
+    assert not any(one.startswith("cause: ") for one in found["complaints"])
