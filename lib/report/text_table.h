@@ -10,13 +10,6 @@ namespace plumbline::report
   /// The cell, or an empty one for what is not known.
   Cell known(bool is, const Cell &cell);
 
-  /// The value that a study's variable has at a row, nothing where none varies.
-  template <class Results, class Row>
-  Cell variable_cell(const Results &results, const Row &row)
-  {
-    return known(!results.variable.empty(), number_cell(row.value));
-  }
-
   std::vector<std::string> lines_of(const std::string &text);
 
   /// Words in lines of at most so many characters, all but the first behind blanks.

@@ -2,7 +2,7 @@
 // orthogonality, nested spaces, and what theory says of rules whose moments are wrong.
 #include "study/energy.h"
 
-#include "report/energy_table.h"
+#include "report/tables.h"
 #include "scene/problem.h"
 #include "study/equations.h"
 #include "study/solution_record.h"
