@@ -41,8 +41,8 @@ TEST(Output, that_a_full_disk_swallows_is_no_success)
     const Outcome outcome = shell(command + " >/dev/full");
     EXPECT_EQ(outcome.exit_code, 3) << command;
     expect_found(outcome.err,
-                 "standard output cannot be written (No space left on device), what "
-                 "was printed is not whole; free some space, or send it elsewhere",
+                 "standard output cannot be written (No space left on device); the output is "
+                 "incomplete. Free some disk space or redirect it",
                  command);
   }
   EXPECT_NO_THROW(std::ignore = read_json(folder / "results.json"));
