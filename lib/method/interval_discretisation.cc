@@ -48,6 +48,18 @@ namespace plumbline::method
     return lattice_.coordinate(i + families_[family].offset);
   }
 
+  /// Where a node's data are taken: of nodes that a cell owns at its ends, as of discontinuous
+  /// elements, inside the cell by more than coordinates are rounded, as data may jump at the end.
+  double IntervalDiscretisation::place_of_data(unsigned int family, int i) const
+  {
+    constexpr double inside = 16 * std::numeric_limits<double>::epsilon();
+    const double x = place(family, i), step = inside * std::max(std::abs(x), lattice_.h()),
+                 offset = families_[family].offset;
+    if (families_[family].at_vertex || (offset > 0 && offset < 1))
+      return x;
+    return offset == 0 ? x + step : x - step;
+  }
+
   bool IntervalDiscretisation::is_needed(unsigned int family, int i) const
   {
     if (lattice_.is_inside(i) || lattice_.is_inside(i - 1)) // of a cell of Ω
@@ -83,7 +95,7 @@ namespace plumbline::method
         around.values.push_back(0);
         if (is_free(s, i) || is_near[i + margin] == 0 || !is_needed(s, i))
           continue;
-        around.values.back() = problem.constraint.value(dealii::Point<1>(place(s, i)), 0);
+        around.values.back() = problem.constraint.value(dealii::Point<1>(place_of_data(s, i)), 0);
         low = std::min(low, around.values.back());
         high = std::max(high, around.values.back());
         given.push_back(around.values.size() - 1);

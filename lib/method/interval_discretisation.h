@@ -77,6 +77,7 @@ namespace plumbline::method
     const std::vector<geometry::AxisSpecies> &families() const { return families_; }
     bool is_free(unsigned int family, int i) const; ///< false outside the hull
     double place(unsigned int family, int i) const; ///< its coordinate [length]
+    double place_of_data(unsigned int family, int i) const;
 
   private:
     /// Whether a value there enters an equation, or an average over a cell.

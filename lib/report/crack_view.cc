@@ -69,7 +69,8 @@ namespace plumbline::report
                  : outcome;
     }
 
-    std::string verdict(const Record &record)
+    /// @param is_of_one  of the crack's motion no other mesh size is there
+    std::string verdict(const Record &record, bool is_of_one)
     {
       const std::string &outcome = record.text("outcome");
       std::string text =
@@ -91,6 +92,8 @@ namespace plumbline::report
                                           : "asymmetric by " + rounded(record["asymmetry"]));
       if (!record.text("reason").empty())
         text += ". Reason: " + record.text("reason");
+      if (!is_of_one)
+        return text + ". This is the result at h = " + rounded(record.key.h) + ".";
       return text + ". This rests on one mesh size, h = " + rounded(record.key.h) +
              ": run with another Study/h to see how it depends on h.";
     }
@@ -194,7 +197,11 @@ namespace plumbline::report
     if (moved == results.records.end())
       return view;
     const Record &record = *moved;
-    view.answer = verdict(record);
+    view.answer =
+        verdict(record, std::none_of(moved, results.records.end(),
+                                     [&](const Record &other) {
+                                       return other.has("advance") && other.key.h != record.key.h;
+                                     }));
     view.facts = {record.key.method + ", m = " + rounded(record.key.m()),
                   "load " + rounded(record["load"]) + " × threshold",
                   "crack " + outcome_of(record)};

@@ -4,6 +4,7 @@
 #include "scene/scene_keys.h"
 #include "scene/values.h"
 
+#include <cstdlib>
 #include <functional>
 #include <map>
 
@@ -11,7 +12,13 @@ namespace plumbline::scene
 {
   namespace
   {
-    constexpr auto nothing = "0"; ///< of lengths and times, as good as no value
+    /// Zero, for lengths and times, is as good as no value.
+    bool is_nothing(const std::string &value)
+    {
+      char *end = nullptr;
+      const double number = std::strtod(value.c_str(), &end);
+      return end == value.c_str() + value.size() && (value.empty() || number == 0);
+    }
 
     struct RequiredKey
     {
@@ -73,7 +80,7 @@ namespace plumbline::scene
     try
     {
       for (const RequiredKey &one : found->second.keys)
-        if (const std::string value = value_of(one.key); value.empty() || value == nothing)
+        if (const std::string value = value_of(one.key); is_nothing(value))
           missing.push_back(one.key +
                             (one.meaning[0] == '=' ? " " + one.meaning : " (" + one.meaning + ")"));
       if (found->second.has_density && lacks_material(value_of))

@@ -516,8 +516,9 @@ namespace plumbline::study
     {
       const auto method = find_method(methods, *scene.reference.method, "Reference/method");
       if (method->family() != method::MethodFamily::reference)
-        throw InputError("scene '" + scene.name + "': Reference/method = " + method->name() +
-                         " is a meshfree rule; name a Galerkin method, e.g. Q2 or P2");
+        throw InputError(
+            "scene '" + scene.name + "': Reference/method = " + method->name() +
+            " is not a Galerkin method of the nonlocal problem; name one, e.g. Q2 or P2");
       return method;
     }
   } // namespace

@@ -4,7 +4,7 @@
 
 namespace plumbline::study
 {
-  void EstimateCost::tell(StudyResults &results) const
+  void EstimateCost::tell(const scene::Scene &scene, StudyResults &results) const
   {
     constexpr double long_enough = 2; // CPU s
     constexpr int n_digits = 2;
@@ -13,8 +13,10 @@ namespace plumbline::study
       all += record.cost.seconds();
     if (seconds_ < long_enough || seconds_ < .5 * all)
       return;
-    results.facts["time of the reference and error estimates"] =
-        base::to_text(seconds_, n_digits) + " of " + base::to_text(all, n_digits) +
-        " CPU s; for first trials write Reference/estimate = none";
+    const bool is_estimated = scene.reference.estimate != scene::Estimate::none;
+    results.facts[is_estimated ? "time of the reference and error estimates"
+                               : "time of the reference"] =
+        base::to_text(seconds_, n_digits) + " of " + base::to_text(all, n_digits) + " CPU s" +
+        (is_estimated ? "; for first trials write Reference/estimate = none" : "");
   }
 } // namespace plumbline::study

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/cost.h"
+#include "scene/scene.h"
 #include "study/study_results.h"
 
 namespace plumbline::study
@@ -23,7 +24,7 @@ namespace plumbline::study
 
     /// Adds this time, and how to avoid it, to the facts of a study if it is at least half of the
     /// total and at least 2 CPU s.
-    void tell(StudyResults &results) const;
+    void tell(const scene::Scene &scene, StudyResults &results) const;
 
   private:
     double seconds_ = 0;

@@ -3,6 +3,7 @@
 #include "geometry/polygon.h"
 #include "scene/mesh.h"
 #include "scene/mesh_in_space.h"
+#include "scene/on_line.h"
 #include "study/memory_estimate.h"
 #include "study/motion_estimate.h"
 #include "study/preflight.h"
@@ -41,8 +42,23 @@ namespace plumbline::study
         return size;
       }
       const auto n = scene.domain.lattice(level.h).n_cells();
-      size.extents = {static_cast<double>(n[0]), static_cast<double>(n[1])};
+      size.extents = {static_cast<double>(n[0]), is_on_intervals(scene) ? 0 : double(n[1])};
       return size;
+    }
+
+    bool is_on_line(const method::ProblemSize &size)
+    {
+      return size.is_lattice() && size.extents[1] == 0;
+    }
+
+    /// A banded factor, and vectors, of at most so many unknowns a cell as the method's order.
+    double bytes_on_line(const Method &method, const method::ProblemSize &size)
+    {
+      constexpr double n_vectors = 40;
+      const double of_cell =
+                       method.family() == method::MethodFamily::reference ? method.order() : 1,
+                   band = (size.reach() / size.level.h + 2) * of_cell;
+      return sizeof(double) * size.extents[0] * of_cell * (band + n_vectors);
     }
 
     method::ProblemSize mesh_size(const scene::Scene &scene, const geometry::Mesh &mesh,
@@ -124,7 +140,9 @@ namespace plumbline::study
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
-      if (size.is_lattice() && size.n_cells == 0)
+      if (is_on_line(size))
+        text << size.extents[0] << " cells)";
+      else if (size.is_lattice() && size.n_cells == 0)
         text << size.extents[0] << " x " << size.extents[1]
              << (size.depth > 0 ? " x " + std::to_string(std::lround(size.depth)) : "")
              << " cells)";
@@ -132,6 +150,8 @@ namespace plumbline::study
         text << "some " << std::round(size.n_cells) << " cells)";
       if (is_shared)
         text << " on each of " << n_ranks << " ranks";
+      if (is_on_line(size))
+        return {text.str(), bytes_on_line(method, size) + more};
       const bool is_of_centroids =
           size.depth > 0 && size.n_cells > 0 && method.family() == method::MethodFamily::meshfree;
       return {text.str(),

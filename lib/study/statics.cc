@@ -346,7 +346,7 @@ namespace plumbline::study
     analysis.complete = [](const scene::Scene &scene, Common &common)
     {
       common.kept<OwnFinest>(own_finest).compare(scene, common.results.records);
-      common.kept<EstimateCost>(EstimateCost::name).tell(common.results);
+      common.kept<EstimateCost>(EstimateCost::name).tell(scene, common.results);
     };
     analysis.conclude = [](const scene::Scene &scene, StudyResults &results)
     {

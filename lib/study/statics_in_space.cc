@@ -3,6 +3,7 @@
 #include "analysis/statics.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/another_operator.h"
 #include "physics/gauss.h"
 #include "study/compared_case.h"
 #include "study/comparison.h"
@@ -278,8 +279,7 @@ namespace plumbline::study
         const auto points = options_.points_in_space ? options_.points_in_space(problem)
                                                      : std::vector<dealii::Point<3>>{};
         const bool is_shown = is_estimated(scene_, method),
-                   is_at_points = !points.empty() &&
-                                  method.family() == method::MethodFamily::reference &&
+                   is_at_points = !points.empty() && method::is_reference(method) &&
                                   scene_.reference.estimate != scene::Estimate::none;
         std::vector<double> errors;
         if (is_shown || is_at_points)

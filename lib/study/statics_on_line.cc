@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "method/another_operator.h"
 #include "physics/gauss.h"
 #include "scene/on_line.h"
 #include "study/compared_case.h"
@@ -190,8 +191,7 @@ namespace plumbline::study
                      nodal_values(*problem.local_solution, solution.nodes));
         const auto points = points_of(problem);
         const bool is_shown = place_.is_finest() && is_estimated(scene_, method),
-                   is_at_points = !points.empty() &&
-                                  method.family() == method::MethodFamily::reference &&
+                   is_at_points = !points.empty() && method::is_reference(method) &&
                                   scene_.reference.estimate != scene::Estimate::none;
         std::vector<double> errors;
         if (is_shown || is_at_points)

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::reference
 {
@@ -83,7 +84,8 @@ namespace plumbline::reference
     // the traces ∫ C_aa r², in the polygon as n times that of the sector of a side
     const geometry::Polygon polygon = inscribed_polygon(kernel.horizon(), n_sides);
     const std::array<Point<2>, 3> sector = {Point<2>(), polygon[0], polygon[1]};
-    double sum = 0, whole = 0;
+    constexpr double round_off = 1e-13;
+    double sum = 0, size = 0;
     for (const physics::Kernel<2> &part : kernel.parts())
     {
       const geometry::CutRule rule =
@@ -91,9 +93,18 @@ namespace plumbline::reference
       for (std::size_t q = 0; q < rule.points.size(); ++q)
         sum += rule.weights[q] * part.radial(rule.points[q].norm()) * rule.points[q].norm_square();
     }
-    for (unsigned int a = 0; a < kernel.n_components(); ++a)
-      whole += kernel.moment({2, 0}, a, a) + kernel.moment({0, 2}, a, a);
-    return n_sides * sum / whole;
+    const auto trace = [](const physics::Kernel<2> &one)
+    {
+      double result = 0;
+      for (unsigned int a = 0; a < one.n_components(); ++a)
+        result += one.moment({2, 0}, a, a) + one.moment({0, 2}, a, a);
+      return result;
+    };
+    for (const physics::Kernel<2> &part : kernel.parts())
+      size += std::abs(trace(part));
+    const double whole = trace(kernel);
+    return std::abs(whole) > round_off * size ? n_sides * sum / whole
+                                              : std::numeric_limits<double>::quiet_NaN();
   }
 
   method::LimitProof limit_of_polygon(const problem::Problem<2> &problem, unsigned int n_sides)
@@ -101,8 +112,10 @@ namespace plumbline::reference
     method::LimitProof proof;
     if (!problem.settings.tends_to_local_limit && problem.settings.ball_order == 0)
       return proof;
-    proof.answer = method::LimitProof::Answer::incompatible;
     proof.defect = std::abs(second_moment_ratio(problem.kernel, n_sides) - 1);
+    if (!std::isfinite(proof.defect)) // the second moments vanish, and with them the local limit
+      return {};
+    proof.answer = method::LimitProof::Answer::incompatible;
     proof.reason = "a polygon of " + std::to_string(n_sides) +
                    " sides replaces the ball: second moments are off by " +
                    base::to_text(100 * proof.defect, 3) + " %";

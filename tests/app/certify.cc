@@ -178,7 +178,8 @@ TEST(Certify, refuses_scenes_that_are_none)
   const std::string scene = scene_with();
   expect_refused("certify " + scene + " --set Output/points=", "Output/points is empty");
   expect_refused("certify " + scene + " --set Reference/method=none", "Reference/method = none");
-  expect_refused("certify " + scene + " --set Reference/method=IPA-AC", "is a meshfree rule");
+  expect_refused("certify " + scene + " --set Reference/method=IPA-AC",
+                 "is not a Galerkin method of the nonlocal problem");
   expect_refused("certify " + scene + " --set Methods/names=Q1", "no meshfree rule");
   expect_refused("certify " + scene + " --set Study/h=1/8,1/16", "2 mesh sizes");
   expect_refused("certify " + scene + " --reference-level 4", "--reference-level = 4");

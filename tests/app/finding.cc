@@ -208,7 +208,8 @@ TEST(Finding, what_a_crack_lacks_is_named_at_once)
   expect_refused("crack " + bare, "'plumbline new NAME --kind crack' " + has_them);
   const std::string glass =
       "crack " + (fs::path(PLUMBLINE_SCENES) / "griffith/glass.prm").string() + " --set ";
-  expect_refused(glass + "Crack/notch=0", "this is missing: Crack/notch");
+  for (const std::string nothing : {"0", "0.0", "0e0"})
+    expect_refused(glass + "Crack/notch=" + nothing, "this is missing: Crack/notch");
   expect_refused(
       glass + "Material/E= --set Material/toughness=",
       "this is missing: Material/E and Material/toughness (G_c), or Material/c and beta");

@@ -8,6 +8,7 @@
 #include "reference/method.h"
 #include "scene/on_line.h"
 #include "study/estimate_on_line.h"
+#include "study/memory_estimate.h"
 #include "study/nodal_fit.h"
 #include "study/preflight.h"
 #include "study/statics.h"
@@ -150,6 +151,45 @@ TEST(PointsOnLine, have_values_of_each_solve_with_estimates_that_are_bounds)
     // estimates fall as fast as errors do, by degree p + 1
     const double ratio = levels[1].estimate[0] / levels[2].estimate[0];
     EXPECT_NEAR(std::log2(ratio), method == "Q2" ? 3 : 2, .35) << method;
+  }
+}
+
+// a line has no second row of cells, and its matrix is a band
+TEST(MemoryOnLine, grows_with_cells_times_band)
+{
+  const scene::Scene fine = make_scene({{"Study/h", "1/512, 1/1024, 1/2048"},
+                                        {"Reference/method", "DGQ3"},
+                                        {"Methods/names", "PA-AC"}});
+  double largest = 0;
+  for (const MemoryOfLevel &one : estimate_memory(fine, {find("DGQ3")}, 0, 1))
+  {
+    EXPECT_EQ(one.largest.what.find(" x "), std::string::npos) << one.largest.what;
+    largest = std::max(largest, one.largest.bytes);
+  }
+  EXPECT_GT(largest, 8. * (2 * 2048 * 4) * (512 * 4)); // the factor alone
+  EXPECT_LT(largest, 2e9);
+}
+
+// discontinuous elements take the limits of data from inside their cells
+TEST(StaticsOnLine, data_may_jump_at_ends_of_cells)
+{
+  const auto solved = [](const std::string &name, const std::string &constraint)
+  {
+    const scene::Scene scene = make_scene({{"Problem/solution", ""},
+                                           {"Problem/load", "1"},
+                                           {"Problem/constraint", constraint},
+                                           {"Reference/method", "DGQ3"},
+                                           {"Study/decisive error", "averages L2 | reference"}});
+    const Problem problem = make_problem_on_line(scene, 0, scene.study.series.front().levels[0]);
+    return solve(*find(name), problem).averages;
+  };
+  for (const std::string name : {"DGQ0", "DGQ1", "DGQ2", "DGQ3"})
+  {
+    const std::vector<double> with_left = solved(name, "x <= 17/16 ? 0 : 1/10"),
+                              with_right = solved(name, "x < 17/16 ? 0 : 1/10");
+    ASSERT_EQ(with_left.size(), with_right.size());
+    for (std::size_t i = 0; i < with_left.size(); ++i)
+      EXPECT_NEAR(with_left[i], with_right[i], 1e-14) << name;
   }
 }
 

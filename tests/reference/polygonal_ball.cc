@@ -231,6 +231,23 @@ TEST(PolygonalBall, entries_are_those_of_a_rule_on_the_polygon_cut_by_the_lattic
     }
 }
 
+// ∫ (4 - 5 t) t³ dt = 0: the local limit is 0, to which nothing is relative
+TEST(PolygonalBall, proves_nothing_of_kernels_without_second_moments)
+{
+  const scene::Scene scene = scene_of(
+      "Q1",
+      {{"Kernel/type", "polynomial"}, {"Kernel/coefficients", "4, -5"}, {"Kernel/limit", "none"}});
+  const problem::Problem<2> problem =
+      make_problem(scene, 0, scene.study.series.front().levels.front());
+  for (const unsigned int n : {8u, 32u})
+  {
+    EXPECT_TRUE(std::isnan(second_moment_ratio(problem.kernel, n))) << n;
+    const method::LimitProof limit = limit_of_polygon(problem, n);
+    EXPECT_EQ(limit.answer, method::LimitProof::Answer::unknown) << n;
+    EXPECT_EQ(limit.defect, 0) << n;
+  }
+}
+
 // T_abcd of Σ_k A_ab(k) k_c k_d against that of the kernel; all of them are off by the same factor
 TEST(PolygonalBall, moduli_of_bond_tensors_are_off_by_the_ratio_of_second_moments)
 {

@@ -52,6 +52,16 @@ namespace plumbline::report
         "0.5: run with another Study/h to see how it depends on h.");
   }
 
+  TEST(CrackReport, SaysOfWhichMeshSizeItsAnswerIsWhereThereAreSeveral)
+  {
+    study::StudyResults results = moved(scene::CrackOutcome::runs);
+    results.records.push_back(results.records.front());
+    results.records.back().key.h /= 2;
+    const std::string answer = crack_view(results).answer;
+    EXPECT_NE(answer.find("This is the result at h = 0.5."), std::string::npos) << answer;
+    EXPECT_EQ(answer.find("one mesh size"), std::string::npos) << answer;
+  }
+
   TEST(CrackReport, HasUnitsOnTheAxesOfItsCharts)
   {
     const View view = crack_view(moved(scene::CrackOutcome::runs));
