@@ -181,7 +181,7 @@ TEST(StaticsOnLine, data_may_jump_at_ends_of_cells)
                                            {"Reference/method", "DGQ3"},
                                            {"Study/decisive error", "averages L2 | reference"}});
     const Problem problem = make_problem_on_line(scene, 0, scene.study.series.front().levels[0]);
-    return solve(*find(name), problem).averages;
+    return solve_on_line(*find(name), problem).averages;
   };
   for (const std::string name : {"DGQ0", "DGQ1", "DGQ2", "DGQ3"})
   {
