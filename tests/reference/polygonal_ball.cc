@@ -234,9 +234,14 @@ TEST(PolygonalBall, entries_are_those_of_a_rule_on_the_polygon_cut_by_the_lattic
 // ∫ (4 - 5 t) t³ dt = 0: the local limit is 0, to which nothing is relative
 TEST(PolygonalBall, proves_nothing_of_kernels_without_second_moments)
 {
-  const scene::Scene scene = scene_of(
-      "Q1",
-      {{"Kernel/type", "polynomial"}, {"Kernel/coefficients", "4, -5"}, {"Kernel/limit", "none"}});
+  const scene::Scene scene =
+      scene_of("Q1", {{"Kernel/type", "polynomial"},
+                      {"Kernel/coefficients", "4, -5"},
+                      {"Kernel/limit", "none"},
+                      {"Problem/load", "1"},
+                      {"Problem/constraint", "0"},
+                      {"Study/norms", "averages L2"},
+                      {"Study/decisive error", "averages L2 | own finest level"}});
   const problem::Problem<2> problem =
       make_problem(scene, 0, scene.study.series.front().levels.front());
   for (const unsigned int n : {8u, 32u})
