@@ -1,5 +1,6 @@
 // The dilatation's part of state-based Galerkin matrices on meshes: exact identities, the lattice's
 // entries, direct sums.
+#include "physics/gauss.h"
 #include "reference/mesh/dilatation.h"
 
 #include "geometry/mesh_input.h"
@@ -235,6 +236,31 @@ TEST(WeightedVolume, IsTheSumOverTheCells)
               {ball.centre, part.horizon()}, cells[other],
               [&](double r) { return part.radial(r) * r * r; }, 0)[0];
       EXPECT_NEAR(volume(ball.centre), sum, 1e-13);
+    }
+  }
+}
+
+// beyond a straight side at the distance d the ball lacks arcs of 2 acos(d/r)
+TEST(WeightedVolume, LacksTheSegmentBeyondASide)
+{
+  const Mesh mesh = free_square(.25, true);
+  const double delta = .2;
+  for (const auto &profile : {bell, decaying})
+  {
+    const auto kernel = physics::influence_function<2>(profile, delta);
+    const reference::WeightedVolume volume(mesh, kernel);
+    for (double d = 1e-6; d < delta; d += .0037)
+    {
+      const auto &gauss = physics::gauss(60);
+      double segment = 0; // over r = d + (δ - d) v², smooth in v
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double v = gauss.point(q)[0], r = d + (delta - d) * v * v;
+        segment += gauss.weight(q) * 2 * (delta - d) * v * kernel.radial(r) * r * r * r * 2 *
+                   std::acos(d / r);
+      }
+      EXPECT_NEAR(volume(Point<2>(.5, d)), 2 - segment, 1e-13) << d;
+      EXPECT_NEAR(volume(Point<2>(1 - d, .4)), 2 - segment, 1e-13) << d;
     }
   }
 }
