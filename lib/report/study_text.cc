@@ -206,7 +206,7 @@ namespace plumbline::report
   std::string study_summary(const View &view, const StudyResults &results, const std::string &files)
   {
     constexpr std::size_t most_verdicts = 9, most_words = 7, most_of_one = 3, most_missed = 2,
-                          most_findings = 3, most_of_finding = 2;
+                          most_findings = 3, most_of_finding = 2, most_of_advice = 2;
     Lines begin = {heading(results.scene_name, results.purpose)}, end;
     begin.insert(begin.end(), view.constants.begin(), view.constants.end());
     if (!view.verdicts.rows.empty() && view.brief.empty())
@@ -237,7 +237,7 @@ namespace plumbline::report
     for (const Statement &one : view.statements)
       say(one.words, most_of_one);
     for (const std::string &one : view.advice)
-      end.push_back(fitted(one, n_columns));
+      say(one, most_of_advice);
     return summary(begin, view.brief.empty() ? view.parts : view.brief, end);
   }
 } // namespace plumbline::report

@@ -85,6 +85,19 @@ TEST(StudySummary, shows_the_finest_levels_and_ends_in_the_answer)
   EXPECT_EQ(lines_of(study_summary(answered, {}, "")).back(), "The crack runs.");
 }
 
+// which method to take at which cost is what a reader looks for
+TEST(StudySummary, gives_advice_in_full)
+{
+  report::View view = long_view(30);
+  const std::string advice =
+      "parabola, m = 3: cheapest to a relative error of 0.01: Q1 at h = 0.1, 0.000646 CPU s; of "
+      "0.0001: IPA-AC-R2 at h = 0.0125, 0.000677 CPU s, a tie with IPA-AC, Q1";
+  view.advice = {advice, advice};
+  const auto lines = lines_of(study_summary(view, many_expectations(), ""));
+  EXPECT_LE(lines.size(), 25u);
+  EXPECT_EQ(lines[lines.size() - 2] + " " + lines.back(), advice);
+}
+
 TEST(StudySummary, tells_what_it_leaves_out)
 {
   const std::string text = study_summary(long_view(30), many_expectations(), "");
