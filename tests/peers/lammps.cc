@@ -158,7 +158,7 @@ TEST(Lammps, check_says_that_the_limit_of_its_weights_is_wrong)
   const Outcome outcome = run("check " + files + scene + " -o " + folder.string());
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   expect_found(outcome.out, "the weights are those of LAMMPS");
-  expect_found(outcome.out, "second moments off by -13");
+  expect_found(outcome.out, "trace, the strength of the operator, by -13");
   expect_found(outcome.out, "required ac: second moments are off by 13");
   EXPECT_EQ(outcome.out.find("outlier: "), std::string::npos) << outcome.out;
   EXPECT_EQ(run("check " + files + scene + " --quiet --require consistent").exit_code, 0);
