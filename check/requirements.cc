@@ -296,18 +296,54 @@ namespace plumbline::check
       return longest;
     }
 
+    /// Whether bonds have the lengths of a lattice of squares.
+    bool is_on_lattice(const Findings &found)
+    {
+      constexpr double tolerance = 1e-6;
+      const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < tolerance; };
+      for (const Family<2> &family : found.given.families)
+        for (const Bond<2> &bond : family.bonds)
+          if (!is_whole(bond.xi[0] / found.level.node_size) ||
+              !is_whole(bond.xi[1] / found.level.node_size))
+            return false;
+      return true;
+    }
+
+    /// The largest distance of lattice nodes in the ball, without its boundary [spacings].
+    double largest_shell(double radius)
+    {
+      constexpr double boundary = 1e-6;
+      double largest = 0;
+      for (int i = 0; i < radius; ++i)
+        for (int j = 0; j <= i; ++j)
+          if (const double r = std::hypot(i, j); r < radius * (1 - boundary))
+            largest = std::max(largest, r);
+      return largest;
+    }
+
+    /// The horizon is not that of the bonds: it differs by more than a spacing, or there are nodes
+    /// of a lattice between the longest bond and it.
+    bool is_other_horizon(const Findings &found)
+    {
+      constexpr double shell = 1.05, tolerance = 1e-6; // spacings
+      const double horizon = found.level.level.horizon, spacing = found.level.node_size,
+                   longest = longest_bond(found);
+      return longest > 0 && (std::abs(longest - horizon) > shell * spacing ||
+                             (longest < (largest_shell(horizon / spacing) - tolerance) * spacing &&
+                              is_on_lattice(found)));
+    }
+
     /// Moments are those of the scene's horizon: if that is not the horizon of the bonds, all
     /// weights seem wrong, and any cause that is named would be a wrong one.
     std::string scene_mismatch(const Findings &found)
     {
-      constexpr double shell = 1.05; // spacings by which bonds may miss the horizon, or exceed it
       const double h = found.level.level.h, horizon = found.level.level.horizon,
                    spacing = found.level.node_size, longest = longest_bond(found);
       std::string what;
       if (!found.level.is_near())
         what = "the nodes' spacing is " + base::to_text(spacing, 6) + ", but h is " +
                base::to_text(h, 6) + " and the horizon " + base::to_text(horizon, 6);
-      else if (longest > 0 && std::abs(longest - horizon) > shell * spacing)
+      else if (is_other_horizon(found))
         what = "the longest bond is " + base::to_text(longest, 6) + ", but the horizon is " +
                base::to_text(horizon, 6) + " for a spacing of " + base::to_text(spacing, 6);
       return what.empty() ? ""

@@ -65,7 +65,9 @@ namespace plumbline::scene
           "to be empty: Crack/load and Crack/start say how the strip is pulled");
     needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres &&
               scene.methods.nodes.perturbation == 0,
-          "one meshfree method (Methods/names) on centres that are not moved (Methods/nodes)");
+          "one meshfree method (Methods/names, which has " +
+              std::to_string(scene.methods.names.size()) +
+              ") on centres that are not moved (Methods/nodes)");
     needs(time.schemes.size() == 1, "one of Time/schemes");
     for (const Series &series : scene.study.series)
       for (const Level &level : series.levels)

@@ -162,10 +162,11 @@ namespace plumbline::study
 
     [[noreturn]] void refuse_same_cells(const scene::Scene &scene, std::size_t n_cells)
     {
-      throw InputError("Domain/mesh = " + scene.domain.mesh.name + " has the " +
-                       std::to_string(n_cells) +
-                       " cells of the level before, so that rates would mean nothing; give "
-                       "a mesh that follows h, or a single value of Study/h");
+      throw InputError(
+          "Domain/mesh = " + scene.domain.mesh.name + " has the " + std::to_string(n_cells) +
+          " cells of the level before, so that rates would mean nothing; give "
+          "a mesh that follows h (in a .geo by the line 'DefineConstant[ h = 0.1, delta = "
+          "0.3 ];'), or a single value of Study/h");
     }
 
     /// Meshes and nodes of all levels can be used, and differ where h does.

@@ -124,8 +124,9 @@ namespace plumbline::meshfree
                          ": node " + std::to_string(nodes.id[i]) + " at " +
                          to_text(nodes.origin + nodes.places[i]) +
                          " lies outside of the domain and its collar at the level " + level +
-                         "; give the h and the horizon of your bonds (Study), or take the node out "
-                         "or move it in");
+                         "; if those are not the h and the horizon of your bonds (Study), give "
+                         "them; otherwise take out nodes that no bond reaches, such as the corners "
+                         "of a square collar, or move them in");
     if (const auto twins = geometry::find_coincident_nodes(nodes.places, mesh))
       throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[twins->second]) +
                        ": node " + std::to_string(nodes.id[twins->second]) + " " +

@@ -323,6 +323,9 @@ TEST(CheckCauses, a_scene_of_other_bonds_is_asked_about_first)
        {Other{"--set Study/h=0.25 --set Study/m=1.6",
               "the nodes' spacing is 0.125, but h is 0.25 and the horizon 0.4; give the h and the "
               "horizon of your bonds (Study/h, and Study/m or Study/horizon)"},
+        Other{"--set Study/m=4.3", // there are neighbours between
+              "the longest bond is 0.450694, but the horizon is 0.5375 for a spacing of 0.125; "
+              "give"},
         Other{"--set Study/m=5",
               "the longest bond is 0.450694, but the horizon is 0.625 for a spacing of 0.125; "
               "give"}})
@@ -339,6 +342,7 @@ TEST(CheckCauses, a_scene_of_other_bonds_is_asked_about_first)
   // where the scene's nodes are fewer, those of the file do not fit in
   const Outcome outside = check(nodes_file, bonds_file, "--set Study/h=0.1");
   EXPECT_EQ(outside.exit_code, 2);
-  expect_found(outside.err, "h = 0.1, horizon = 0.3, while the nodes' spacing is 0.125; give "
-                            "the h and the horizon of your bonds (Study)");
+  expect_found(outside.err, "h = 0.1, horizon = 0.3, while the nodes' spacing is 0.125; if "
+                            "those are not the h and the horizon of your bonds (Study), give "
+                            "them");
 }

@@ -65,9 +65,11 @@ namespace plumbline::scene
     keys.add("mesh", mesh.name,
              "lattice: the boxes divided into uniform squares that share one stencil. squares, "
              "triangles: the same boxes as a mesh with its own matrix entries. A file .msh, or "
-             ".geo with the constants h and delta, whose physical surfaces are named omega... (the "
+             ".geo, whose physical surfaces are named omega... (the "
              "domain) and collar... (the interaction domain); with Domain/dimension = 3 physical "
-             "volumes, meshed with tetrahedra. Or the name of a deal.II generator, "
+             "volumes, meshed with tetrahedra. In a .geo the line 'DefineConstant[ h = 0.1, delta "
+             "= 0.3 ];' "
+             "lets each level set its own h and horizon. Or the name of a deal.II generator, "
              "e.g. hyper_ball_balanced. gmsh meshes .geo files in a separate process with limits "
              "(120 CPU seconds, 4 GiB; the environment variables PLUMBLINE_GMSH_SECONDS and "
              "PLUMBLINE_GMSH_GIBIBYTES change them); commands that start programs or write files "
