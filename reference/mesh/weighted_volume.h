@@ -29,7 +29,7 @@ namespace plumbline::reference
 
     struct Term
     {
-      double coefficient;
+      double coefficient = 0;
     };
 
     using Series = std::vector<Term>; ///< of Chebyshev polynomials
