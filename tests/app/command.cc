@@ -393,12 +393,23 @@ TEST(Command, a_summary_is_short_and_ends_in_the_answer)
     EXPECT_LE(n_characters, 120) << line;
   }
   EXPECT_LE(all.size(), 25u);
-  expect_found(many.out, "\nDGQ2 "); // all 13 methods fit
-  ASSERT_GE(all.size(), 3u);
-  EXPECT_EQ(all[all.size() - 3], "✓ Converge: IPA-AC-R2, IPA-AC-R4, Q1, Q2, Q3, DGQ1, DGQ2.");
-  EXPECT_EQ(all[all.size() - 2],
-            "✗ Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0.");
-  EXPECT_EQ(all.back().rfind("Cheapest to a relative error of 0.01: ", 0), 0u) << all.back();
+  const auto cheapest =
+      std::find_if(all.begin(), all.end(),
+                   [](const std::string &line)
+                   { return line.rfind("Cheapest to a relative error of 0.01: ", 0) == 0; });
+  ASSERT_GE(cheapest - all.begin(), 2) << many.out;
+  EXPECT_EQ(cheapest[-2], "✓ Converge: IPA-AC-R2, IPA-AC-R4, Q1, Q2, Q3, DGQ1, DGQ2.");
+  EXPECT_EQ(cheapest[-1], "✗ Stall, however fine the mesh: FA, LAMMPS, QWJ, PA-AC, IPA-AC, DGQ0.");
+  // costs take a second line where two methods cost the same within the clock's resolution; then
+  // the table leaves out two of its 13 rows to make room for that line and for saying so
+  if (all.end() - cheapest == 1)
+    expect_found(many.out, "\nDGQ2 ");
+  else
+  {
+    EXPECT_EQ(all.end() - cheapest, 2) << "the answer is not last:\n" << many.out;
+    expect_found(many.out, "\nDGQ0 ");
+    expect_found(many.out, "\n... 2 more rows in the report\n");
+  }
 }
 
 TEST(Command, a_summary_without_advice_ends_in_the_estimated_error)
