@@ -175,7 +175,8 @@ namespace plumbline::app
       check.add_option(
           "--boundary", options->boundary,
           "constrained (default): u is prescribed around the domain. free: the boundary "
-          "of the domain is a free surface, where families are truncated");
+          "of the domain is a free surface, where families are truncated. periodic: opposite "
+          "sides of the domain, one box, are joined");
       check
           .add_option("--crack", options->cracks,
                       "A crack that no bond may cross: 'x0, y0 : x1, y1', with more points for "

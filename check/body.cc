@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "geometry/cracks.h"
 #include "geometry/search.h"
+#include "meshfree/check/images.h"
 #include "problem/builder.h"
 #include "report/text_table.h"
 
@@ -193,14 +194,39 @@ namespace plumbline::check
     }
   } // namespace
 
-  bool is_free_boundary(const std::string &word, const std::string &key)
+  scene::Boundary to_boundary(const std::string &word, const std::string &key)
   {
     const auto boundary = base::from_word<scene::Boundary>(word);
-    if (!boundary || *boundary == scene::Boundary::periodic)
+    if (!boundary)
       throw InputError(key + " = '" + word +
                        "' is not known; choose one of 'constrained' (u is prescribed around the "
-                       "domain) and 'free' (the boundary of the domain is a free surface)");
-    return *boundary == scene::Boundary::free;
+                       "domain), 'free' (the boundary of the domain is a free surface) and "
+                       "'periodic' (opposite sides of the domain, a box, are joined)");
+    return *boundary;
+  }
+
+  void take_into_box(const GivenBody &body, const geometry::Domain &omega,
+                     meshfree::GivenNodes &nodes)
+  {
+    if (!body.is_periodic())
+      return;
+    if (!body.cracks.empty())
+      throw InputError("cracks in a periodic box are not supported; leave them out, or check the "
+                       "body with a constrained or free boundary");
+    if (omega.include.size() != 1 || !omega.exclude.empty())
+      throw InputError("a periodic domain is one box without holes; give one");
+    nodes.box = {omega.include[0].lower, omega.include[0].upper};
+    nodes.box->take_in(nodes.places,
+                       [&](std::size_t k) { return "node " + std::to_string(nodes.id[k]); });
+  }
+
+  void add_images(const geometry::Mesh &mesh, const problem::Level &level,
+                  meshfree::GivenNodes &nodes)
+  {
+    if (!nodes.box)
+      return;
+    nodes.box->check_sides(level.horizon, level.h);
+    meshfree::add_images(mesh, nodes);
   }
 
   namespace
@@ -283,11 +309,14 @@ namespace plumbline::check
     for (const std::size_t k : weights.cells->source)
       weights.volumes.push_back(weights.nodes.volume[k]);
     to_weights(values, problem.kernel, weights);
-    if (body.is_there())
+    if (body.is_cut())
       found.body =
           check_body(body, key, problem.kernel, found.level.node_size, weights, uncut_areas);
     for (const std::size_t k : weights.cells->source)
       found.ids.push_back(weights.nodes.id[k]);
+    if (weights.nodes.box)
+      found.n_crossing =
+          meshfree::crossing_bonds(weights.given.families, weights.nodes, *weights.cells);
     problem.on_mesh()->cells = weights.cells; // of whole balls
     static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
         std::move(weights), problem, uncut_areas, found.level.node_size, meant);

@@ -10,16 +10,29 @@ namespace plumbline::check
   /// A body whose weights are checked.
   struct GivenBody
   {
-    bool has_free_boundary = false; ///< else u is prescribed around Ω, and balls are whole there
+    scene::Boundary boundary = scene::Boundary::constrained;
     std::vector<geometry::Polygon> parts;   ///< of Ω, see geometry::VisibleBody
     std::vector<geometry::Polyline> cracks; ///< relative to the origin of the nodes
 
-    bool is_there() const { return has_free_boundary || !cracks.empty(); }
+    bool is_free() const { return boundary == scene::Boundary::free; }
+    bool is_periodic() const { return boundary == scene::Boundary::periodic; }
+    /// Whether families are cut; else balls are whole.
+    bool is_cut() const { return is_free() || !cracks.empty(); }
   };
 
-  /// @param word  "constrained" or "free"
+  /// @param word  one of those of scene::Boundary
   /// @param key   that has it, for the message
-  bool is_free_boundary(const std::string &word, const std::string &key);
+  scene::Boundary to_boundary(const std::string &word, const std::string &key);
+
+  /// Nodes of Ω, one box of lengths, as those of a periodic box; others are left as they are.
+  /// @throws InputError  Ω is no box, and as geometry::PeriodicBox::take_in
+  void take_into_box(const GivenBody &body, const geometry::Domain &omega,
+                     meshfree::GivenNodes &nodes);
+
+  /// Then the images in the mesh of Ω and its collar.
+  /// @throws InputError  as geometry::PeriodicBox::check_sides
+  void add_images(const geometry::Mesh &mesh, const problem::Level &level,
+                  meshfree::GivenNodes &nodes);
 
   /// What of a problem the check of weights needs: nodes on a mesh.
   problem::Problem<2> problem_on(const geometry::Mesh &mesh,

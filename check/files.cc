@@ -157,8 +157,10 @@ namespace plumbline::check
                            {},
                            {},
                            {}};
-    page.facts = {std::to_string(found.cells->n_free) +
-                      (found.body ? " nodes of the interior" : " free nodes"),
+    page.facts = {std::to_string(found.cells->n_free) + (found.body ? " nodes of the interior"
+                                                         : found.nodes.box
+                                                             ? " nodes in a periodic box"
+                                                             : " free nodes"),
                   std::to_string(found.weights.n_bonds) + " bonds", found.level.text()};
     page.parts = {{"outliers", "Outliers",
                    "Each quantity is compared with its own spread. Found and expected values are "

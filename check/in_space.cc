@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "check/body.h"
 #include "check/text.h"
 #include "io/results_json.h"
 #include "meshfree/check/bond_values.h"
@@ -86,9 +87,10 @@ namespace plumbline::check
     /// What else there is to say.
     std::vector<std::string> words_of(const FindingsInSpace &found, const WeightsInSpace &given)
     {
-      std::vector<std::string> lines = {std::to_string(given.free.size()) +
-                                        " nodes in the domain, " + std::to_string(found.n_bonds) +
-                                        " bonds, spacing " + number(found.spacing)};
+      std::vector<std::string> lines = {
+          std::to_string(given.free.size()) +
+          (given.box ? " nodes in the periodic box, " : " nodes in the domain, ") +
+          std::to_string(found.n_bonds) + " bonds, spacing " + number(found.spacing)};
       if (!found.rule.empty())
         lines.push_back(
             "the weights are those of " + found.rule +
@@ -150,8 +152,12 @@ namespace plumbline::check
                        "one, and clear Domain/holes");
     const geometry::Cuboid &omega = solid.include.front();
     InSpace found;
-    found.given = meshfree::read_weights_in_space(input.nodes_file, input.bonds_file, omega);
+    found.given = meshfree::read_weights_in_space(input.nodes_file, input.bonds_file, omega,
+                                                  to_boundary(input.boundary, "--boundary") ==
+                                                      scene::Boundary::periodic);
     found.level = level_of(scene, meshfree::node_spacing(found.given, omega));
+    if (found.given.box)
+      found.given.box->check_sides(found.level.horizon, found.level.h);
     const auto kernel = make_kernel_in_space(scene, found.level.horizon);
     to_weights(meshfree::to_bond_values(input.bonds_are, "--bonds-are"), kernel, found.given);
     static_cast<FindingsInSpace &>(found) =

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "check/body.h"
+#include "meshfree/check/images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -358,10 +359,15 @@ namespace plumbline::check
     {
       std::vector<std::string> result;
       const double ratio = found.level.node_size / found.level.level.horizon;
-      for (const Cause &cause : found.causes)
-        if (!cause.is_own_error || is_too_inexact(found, required))
-          result.push_back(cause_word + cause.text);
-      add_outliers(found, result);
+      if (const std::string text = missing_crossings(found.n_crossing); !text.empty())
+        result.push_back(cause_word + text); // what else there is follows from it
+      else
+      {
+        for (const Cause &cause : found.causes)
+          if (!cause.is_own_error || is_too_inexact(found, required))
+            result.push_back(cause_word + cause.text);
+        add_outliers(found, result);
+      }
       if (required.ac && worst_of_both(found) > found.precision.moments)
         result.push_back("required ac: " + off(found));
       if (required.consistent && found.moments.typical() > ratio)
@@ -438,7 +444,8 @@ namespace plumbline::check
                          " free nodes lie on the boundary of the domain; if they carry data, write "
                          "Methods/nodes = vertices");
       if (found.matrix_failure.empty() && found.matrix.is_positive_definite())
-        result.push_back("positive definite");
+        result.push_back(found.nodes.box ? "positive definite with u prescribed around the box"
+                                         : "positive definite");
       return result;
     }
   } // namespace

@@ -169,7 +169,7 @@ namespace plumbline::check
     GivenBody body_of(const scene::Scene &scene, const Input &input)
     {
       GivenBody body;
-      body.has_free_boundary = is_free_boundary(input.boundary, "--boundary");
+      body.boundary = to_boundary(input.boundary, "--boundary");
       for (const std::string &text : input.cracks)
         try
         {
@@ -237,7 +237,7 @@ namespace plumbline::check
   {
     check_analysis(scene, scene::Analysis::check);
     GivenBody body = body_of(scene, input);
-    scene.domain.is_free_body = body.has_free_boundary;
+    scene.domain.is_free_body = body.is_free();
     Findings found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
@@ -245,15 +245,22 @@ namespace plumbline::check
     weights.nodes = read_given_nodes(input.nodes_file);
     weights.nodes.origin = scene.domain.origin;
     geometry::move_to(weights.nodes.origin, weights.nodes.places);
-    const bool boundary_is_data = scene.methods.nodes.are_vertices() && !body.has_free_boundary;
+    const bool boundary_is_data =
+        scene.methods.nodes.are_vertices() && body.boundary == scene::Boundary::constrained;
+    if (body.is_periodic() && !(scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty()))
+      throw InputError("Domain/mesh = " + scene.domain.mesh.name +
+                       ": --boundary periodic is for one box; write lattice, and give "
+                       "Domain/boxes");
+    take_into_box(body, scene.domain.boxes, weights.nodes);
     if (scene.domain.mesh.is_lattice())
       scene.domain.mesh.name = "squares";
     scene.methods.nodes = {std::filesystem::absolute(input.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
     found.level = choose_level(scene, weights.nodes);
     const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
-    if (body.has_free_boundary)
+    if (body.is_free())
       body.parts = parts_of(scene, mesh);
+    add_images(mesh, found.level.level, weights.nodes);
     check_places(weights.nodes, mesh,
                  found.level.text() + (found.level.is_near()
                                            ? ""
@@ -261,15 +268,17 @@ namespace plumbline::check
                                                  base::to_text(found.level.node_size, 6)));
     GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
     weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
-    found.n_on_boundary = boundary_is_data || body.has_free_boundary ? 0 : cells.n_on_boundary;
+    found.n_on_boundary = boundary_is_data || body.is_free() ? 0 : cells.n_on_boundary;
     const auto case_of = [&, of_nodes = weights.cells](unsigned int c)
     {
       scene::Case one = scene::make_case(scene, c, found.level.level);
       one.problem.on_mesh()->cells = of_nodes;
       return one;
     };
+    // without a constraint all around, or with cracks, solutions are other ones
+    const bool has_no_solutions = body.is_cut() || body.is_periodic();
     problem::Problem<2> problem =
-        body.is_there()
+        has_no_solutions
             ? problem_on(mesh, weights.cells, scene::make_kernel(scene, found.level.level.horizon),
                          found.level.level.h)
             : case_of(0).problem;
@@ -278,8 +287,8 @@ namespace plumbline::check
                  std::move(weights), cells.uncut_areas, std::move(problem), scene.methods.names,
                  found);
     found.notes = all_notes(found, assumptions(scene, input, found.level.level), input);
-    if (body.is_there())
-      return found; // without a constraint all around, or with cracks, solutions are other ones
+    if (has_no_solutions)
+      return found;
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
     { family = found.given.families[i]; };
     const auto names = scene.problem.case_names();

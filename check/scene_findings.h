@@ -51,9 +51,10 @@ namespace plumbline::check
   struct Findings : meshfree::Findings
   {
     std::string scene_name, purpose;
-    std::vector<std::int64_t> ids;  ///< of the nodes, numbered as the cells
-    std::vector<std::string> notes; ///< how files were read that are not plain CSV
-    std::size_t n_on_boundary = 0;  ///< free nodes on the boundary of Ω
+    std::vector<std::int64_t> ids;       ///< of the nodes, numbered as the cells
+    std::vector<std::string> notes;      ///< how files were read that are not plain CSV
+    std::size_t n_on_boundary = 0;       ///< free nodes on the boundary of Ω
+    std::vector<std::size_t> n_crossing; ///< bonds across the sides of a periodic box, else empty
     ChosenLevel level;
     std::vector<CaseCheck> cases; ///< none of bodies
     /// Of a body with free surfaces or cracks, whose families of whole balls are all that the other

@@ -39,8 +39,12 @@ namespace plumbline::check
     void tell_nodes(std::ostream &out, const Findings &found, const Input &input)
     {
       const std::size_t n_free = n_of_domain(found);
-      out << "nodes     " << input.nodes_file << ": " << n_free << " free, "
-          << found.ids.size() - n_free << " in the interaction domain; volumes "
+      out << "nodes     " << input.nodes_file << ": " << n_free;
+      if (found.nodes.box)
+        out << " in the periodic box";
+      else
+        out << " free, " << found.ids.size() - n_free << " in the interaction domain";
+      out << "; volumes "
           << (std::abs(found.volume_defect) < round_off
                   ? "equal the cells' areas"
                   : "differ from the cells' areas by " + base::to_percent(found.volume_defect))
@@ -199,7 +203,7 @@ namespace plumbline::check
     void add_sizes(Json &json, const Findings &found)
     {
       json["n_free"] = n_of_domain(found);
-      json["n_collar"] = found.ids.size() - n_of_domain(found);
+      json["n_collar"] = found.ids.size() - n_of_domain(found) - found.nodes.n_images;
       json["n_bonds"] = found.body ? found.body->n_bonds : found.weights.n_bonds;
       json["n_ignored_bonds"] = found.given.n_ignored;
       json["largest_family"] = found.weights.largest_family;

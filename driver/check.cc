@@ -45,9 +45,12 @@ namespace plumbline::driver
         if (!value_of(key).empty())
           throw InputError("'plumbline check' does not support " + std::string(name) + ": " + key +
                            " is given; clear it, and give " + remedy);
-      if (value_of("Domain/boundary") == "free")
-        throw InputError("'plumbline check' does not support free bodies of scenes: "
-                         "Domain/boundary = free; write constrained, and give --boundary free");
+      const std::string boundary = value_of("Domain/boundary");
+      const auto known = base::from_word<scene::Boundary>(boundary);
+      if (known && *known != scene::Boundary::constrained)
+        throw InputError("'plumbline check' does not support free bodies and periodic boxes of "
+                         "scenes: Domain/boundary = " +
+                         boundary + "; write constrained, and give --boundary " + boundary);
     }
 
     /// The weights come from a file: a scene need not name rules or pose a problem. By default all
@@ -83,14 +86,15 @@ namespace plumbline::driver
       return options;
     }
 
-    /// Free surfaces and cracks are known in the plane, at one level.
+    /// Free surfaces and cracks are known in the plane, and with periodic boxes at one level.
     void check_body_options(const CheckOptions &options, bool is_in_space)
     {
-      const bool is_free = check::is_free_boundary(options.boundary, "--boundary");
-      if (!is_free && options.cracks.empty())
+      const scene::Boundary boundary = check::to_boundary(options.boundary, "--boundary");
+      const bool is_constrained = boundary == scene::Boundary::constrained;
+      if (is_constrained && options.cracks.empty())
         return;
-      const std::string given = is_free ? "--boundary free" : "--crack";
-      if (is_in_space)
+      const std::string given = is_constrained ? "--crack" : "--boundary " + base::word(boundary);
+      if (is_in_space && !(boundary == scene::Boundary::periodic && options.cracks.empty()))
         throw InputError(given + " is for two dimensions; leave it out where Domain/dimension = 3");
       if (check::is_series(options))
         throw InputError(given + " is for the files of one level; give names without {h}");

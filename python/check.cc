@@ -81,13 +81,15 @@ namespace plumbline::python
                          bool boundary_is_data, const std::vector<std::string> &meant,
                          meshfree::BondValues values, check::GivenBody body)
     {
-      const bool is_free = body.has_free_boundary;
+      check::take_into_box(body, domain, nodes);
+      const bool is_free = body.is_free(), has_data = boundary_is_data && !body.is_periodic();
       const geometry::Mesh mesh =
           geometry::lattice_mesh(domain, h, is_free ? 0 : kernel.horizon(), false);
       if (is_free)
         body.parts = geometry::convex_parts(domain);
+      check::add_images(mesh, {h, kernel.horizon()}, nodes);
       meshfree::check_places(nodes, mesh, "h = " + base::to_text(h, 6));
-      meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, boundary_is_data && !is_free);
+      meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, has_data && !is_free);
       check::Findings found;
       found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};
       found.n_on_boundary = boundary_is_data || is_free ? 0 : cells.n_on_boundary;
@@ -210,7 +212,7 @@ namespace plumbline::python
                    const std::string &boundary, const std::vector<Doubles> &cracks)
     {
       check::GivenBody body;
-      body.has_free_boundary = check::is_free_boundary(boundary, "boundary");
+      body.boundary = check::to_boundary(boundary, "boundary");
       for (std::size_t c = 0; c < cracks.size(); ++c)
         body.cracks.push_back(to_points(cracks[c], "cracks[" + std::to_string(c) + "]"));
       const check::Requirements required = check::parse_requirements(require);

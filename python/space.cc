@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "callables.h"
+#include "check/body.h"
 #include "geometry/mesh_input.h"
 #include "geometry/node_cells_in_space.h"
 #include "geometry/tetrahedral_check.h"
@@ -227,9 +228,12 @@ namespace plumbline::python
     /// Given as arrays; ids and lines are indices.
     meshfree::WeightsInSpace to_given(const Doubles &nodes, const Doubles &volumes,
                                       const Integers &i, const Integers &j, const Doubles &w,
-                                      const py::object &points, const geometry::Cuboid &box)
+                                      const py::object &points, const geometry::Cuboid &box,
+                                      bool is_periodic)
     {
       meshfree::WeightsInSpace given;
+      if (is_periodic)
+        given.box = {box.lower, box.upper};
       given.places = to_points<3>(nodes, "nodes");
       require_length(volumes, given.places.size(), "volumes", "node");
       for (std::size_t k = 0; k < given.places.size(); ++k)
@@ -266,8 +270,8 @@ namespace plumbline::python
         bonds[k].i = static_cast<std::size_t>(i.data()[k]);
         bonds[k].j = static_cast<std::size_t>(j.data()[k]);
         bonds[k].weight = w.data()[k];
-        bonds[k].kernel_point =
-            at.empty() ? Point<3>(given.places[bonds[k].j] - given.places[bonds[k].i]) : at[k];
+        if (!at.empty())
+          bonds[k].kernel_point = at[k];
         bonds[k].line = k;
       }
       const py::gil_scoped_release others;
@@ -279,14 +283,22 @@ namespace plumbline::python
     py::dict check(const Doubles &nodes, const Doubles &volumes, const Integers &i,
                    const Integers &j, const Doubles &w, const Kernel<3> &kernel,
                    const py::object &box, const py::object &points,
-                   const std::vector<std::string> &meant, const std::string &bonds_are)
+                   const std::vector<std::string> &meant, const std::string &bonds_are,
+                   const std::string &boundary)
     {
       const geometry::Cuboid omega = to_cuboid(box);
       const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
-      meshfree::WeightsInSpace given = to_given(nodes, volumes, i, j, w, points, omega);
+      const scene::Boundary known = check::to_boundary(boundary, "boundary");
+      if (known == scene::Boundary::free)
+        throw InputError("boundary = 'free' is for two dimensions; choose one of 'constrained' and "
+                         "'periodic'");
+      meshfree::WeightsInSpace given =
+          to_given(nodes, volumes, i, j, w, points, omega, known == scene::Boundary::periodic);
       meshfree::FindingsInSpace found;
       {
         const py::gil_scoped_release others;
+        if (given.box)
+          given.box->check_sides(kernel.horizon(), node_spacing(given, omega));
         meshfree::to_weights(values, kernel, given);
         found = meshfree::find_defects(given, kernel, omega, meant);
       }
@@ -405,6 +417,6 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
     module.def("node_weights_in_space", node_weights, "rule"_a, "kernel"_a, "nodes"_a, "volumes"_a,
                "box"_a, "exclude"_a, "h"_a);
     module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
-               "box"_a, "points"_a, "meant"_a, "bonds_are"_a);
+               "box"_a, "points"_a, "meant"_a, "bonds_are"_a, "boundary"_a);
   }
 } // namespace plumbline::python

@@ -178,8 +178,11 @@ namespace plumbline::meshfree
   {
     const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
     double n = 0, area = 0;
-    for (const std::size_t i : nodes_inside(nodes, mesh))
-      n += is_on_boundary[i] ? .5 : 1;
+    if (nodes.box) // where nodes on the boundary are not given twice
+      n = static_cast<double>(nodes.size() - nodes.n_images);
+    else
+      for (const std::size_t i : nodes_inside(nodes, mesh))
+        n += is_on_boundary[i] ? .5 : 1;
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
       if (mesh.cells[cell].is_inside)
         area += geometry::area(geometry::view(mesh.polygon(cell)));
@@ -194,6 +197,13 @@ namespace plumbline::meshfree
       cell.is_inside = true;
     const geometry::NodeCells<2> uncut = geometry::voronoi_cells(nodes.places, everywhere);
     GivenCells result;
+    if (nodes.box)
+    {
+      result.cells = uncut;
+      result.cells.n_free = nodes.size() - nodes.n_images;
+      result.uncut_areas = uncut.area;
+      return result;
+    }
     result.n_on_boundary =
         static_cast<std::size_t>(std::count(is_on_boundary.begin(), is_on_boundary.end(), true));
     if (boundary_is_data)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/node_cells.h"
+#include "geometry/periodic_box.h"
 #include "meshfree/rules/quadrature_rule.h"
 
 #include <cstdint>
@@ -21,6 +22,10 @@ namespace plumbline::meshfree
     double volume_rounding = 0;          ///< of the volumes, relative
     std::vector<std::string> notes = {}; ///< how the file was read, where it is not plain CSV
     Point<2> origin = {};                ///< in the file's coordinates
+    std::optional<geometry::PeriodicBox<2>> box = {}; ///< that they lie in, where it is periodic
+    /// In a periodic box, whose images follow the nodes: which node each of them is; else empty.
+    std::vector<std::size_t> original = {};
+    std::size_t n_images = 0;
 
     std::size_t size() const { return id.size(); }
   };
@@ -54,7 +59,8 @@ namespace plumbline::meshfree
   };
 
   /// @param boundary_is_data  nodes on the boundary of Ω belong to the collar and no cell is cut
-  /// there, as with Methods/nodes = vertices; else they are free, and cells are cut
+  /// there, as with Methods/nodes = vertices; else they are free, and cells are cut. In a periodic
+  /// box all nodes but the images are free, and no cell is cut.
   /// @throws InputError  as geometry::voronoi_cells; all nodes of Ω lie on its boundary
   GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh,
                          bool boundary_is_data);

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "meshfree/check/bond_ramp.h"
+#include "meshfree/check/images.h"
 #include "meshfree/discretisations.h"
 
 #include <algorithm>
@@ -134,7 +135,9 @@ namespace plumbline::meshfree
     found.moments = check_moments(families, problem.kernel);
     found.elastic = elastic_ranges(families, problem.kernel);
     found.weights = check_weights(families, problem.kernel, found.mended_volumes);
-    found.symmetry = check_symmetry(families, problem.kernel, found.mended_volumes);
+    found.symmetry = check_symmetry(
+        found.nodes.box ? without_images(families, found.nodes, *found.cells) : families,
+        problem.kernel, found.mended_volumes);
     find_causes(found, problem, meant);
     try
     {

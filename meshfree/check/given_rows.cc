@@ -9,7 +9,7 @@ namespace plumbline::meshfree
   NodeIndex::NodeIndex(const GivenNodes &nodes, const geometry::NodeCells<2> &cells)
   {
     for (unsigned int k = 0; k < cells.size(); ++k)
-      node_of_id_[nodes.id[cells.source[k]]] = k;
+      node_of_id_.emplace(nodes.id[cells.source[k]], k); // images follow their nodes
   }
 
   std::optional<unsigned int> NodeIndex::find(std::int64_t id) const

@@ -1,6 +1,8 @@
 #include "meshfree/check/row_families.h"
 
 #include "base/error.h"
+#include "base/number_text.h"
+#include "meshfree/check/images.h"
 
 #include <algorithm>
 #include <optional>
@@ -45,16 +47,43 @@ namespace plumbline::meshfree
                                                const geometry::NodeCells<2> &cells)
     {
       std::vector<std::vector<Row>> rows(cells.size());
-      for (const GivenRow &row : given)
+      const auto add = [&](unsigned int i, unsigned int j, const GivenRow &row)
       {
-        const unsigned int i = *index.find(row.i), j = *index.find(row.j);
         const Point<2> xi(cells.nodes[j] - cells.nodes[i]);
         rows[i].push_back(
             {j,
              {xi, row.weight, row.kernel_point.value_or(xi), nodes.volume[cells.source[j]]},
              row.line});
+      };
+      std::optional<NearestImages> images;
+      if (nodes.box)
+        images.emplace(nodes, cells);
+      for (const GivenRow &row : given)
+      {
+        const unsigned int i = *index.find(row.i), j = *index.find(row.j),
+                           image = images ? images->nearest(j, i) : j;
+        add(i, image, row);
+        if (image != j) // the same bond on the other side of the box
+          add(images->nearest(i, j), j, row);
       }
       return rows;
+    }
+
+    /// Bonds that are too long for the images that there are seem to reach half around the box.
+    void check_lengths(const std::vector<std::vector<Row>> &rows, const GivenNodes &nodes,
+                       const RowSource &source)
+    {
+      if (!nodes.box)
+        return;
+      for (const std::vector<Row> &family : rows)
+        for (const Row &row : family)
+          for (unsigned int d = 0; d < 2; ++d)
+            if (std::abs(row.bond.xi[d]) > .5 * nodes.box->side(d))
+              throw InputError(source.place(row.line) + "this bond is " +
+                               base::to_text(row.bond.xi.norm(), 6) +
+                               " long, more than half a side of the periodic box and than the "
+                               "horizon allows; give the horizon of the bonds (Study), or take "
+                               "the bond out");
     }
 
     /// By neighbour.
@@ -88,6 +117,7 @@ namespace plumbline::meshfree
     if (const auto fault = find_fault(given, index, nodes.file))
       fail_unless_shifted(source.place(fault->first) + fault->second);
     std::vector<std::vector<Row>> rows = rows_by_node(given, index, nodes, cells);
+    check_lengths(rows, nodes, source);
     const auto id = [&](std::size_t cell) { return std::to_string(nodes.id[cells.source[cell]]); };
 
     GivenFamilies result{std::vector<Family<2>>(cells.n_free)};
@@ -98,7 +128,7 @@ namespace plumbline::meshfree
       sort_bonds(rows[i], i, source, id);
       if (i >= cells.n_free)
       {
-        result.n_ignored += rows[i].size();
+        result.n_ignored += nodes.box ? 0 : rows[i].size();
         for (const Row &row : rows[i])
           result.of_collar.push_back({i, row.neighbour, row.bond, row.line});
         continue;

@@ -3,6 +3,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "meshfree/check/images.h"
 #include "meshfree/rules/family_moments.h"
 #include "meshfree/rules/rules.h"
 
@@ -36,7 +37,7 @@ namespace plumbline::meshfree
 
     /// @param sizes  the rounding errors of weights by their digits, relative
     std::vector<BondInSpace> read_bonds(const std::string &file, const Index &index,
-                                        const WeightsInSpace &given, std::vector<double> &roundings)
+                                        std::vector<double> &roundings)
     {
       base::Csv csv(file, {"i", "j", "weight"});
       std::vector<BondInSpace> bonds;
@@ -54,7 +55,6 @@ namespace plumbline::meshfree
         bond.i = node("i");
         bond.j = node("j");
         bond.weight = csv.number("weight");
-        bond.kernel_point = Point<3>(given.places[bond.j] - given.places[bond.i]);
         if (csv.has("qx") && !csv.is_empty("qx"))
           bond.kernel_point = Point<3>(csv.number("qx"), csv.number("qy"), csv.number("qz"));
         bond.line = csv.line();
@@ -103,6 +103,12 @@ namespace plumbline::meshfree
     return given;
   }
 
+  Point<3> WeightsInSpace::vector_between(std::size_t i, std::size_t j) const
+  {
+    const Point<3> xi(places[j] - places[i]);
+    return box ? box->shortest(xi) : xi;
+  }
+
   void set_families(WeightsInSpace &given, const std::vector<BondInSpace> &bonds,
                     const geometry::Cuboid &omega, const std::string &nodes_name,
                     const std::string &bonds_name)
@@ -111,8 +117,10 @@ namespace plumbline::meshfree
     const auto fail = [&](const BondInSpace &bond, const std::string &what)
     { return InputError(bonds_name + ", line " + std::to_string(bond.line) + ": " + what); };
     given.free.clear();
+    if (given.box)
+      given.box->take_in(given.places, id);
     for (std::size_t node = 0; node < given.id.size(); ++node)
-      if (is_inside(omega, given.places[node]))
+      if (given.box || is_inside(omega, given.places[node]))
         given.free.push_back(node);
     if (given.free.empty())
       throw InputError(nodes_name + ": no node lies inside the box; give the box of the nodes that "
@@ -122,7 +130,7 @@ namespace plumbline::meshfree
     {
       if (bond.i == bond.j)
         throw fail(bond, id(bond.i) + " has a bond with itself; leave its own volume out");
-      if (!(bond.kernel_point.square() > 0))
+      if (bond.kernel_point && !(bond.kernel_point->square() > 0))
         throw fail(bond, "the kernel is taken at 0, where " + id(bond.i) +
                              " is; give its place relative to it");
       sorted.push_back(&bond);
@@ -145,10 +153,10 @@ namespace plumbline::meshfree
           throw fail(one, "the bond from " + id(one.i) + " to " + id(one.j) +
                               " is given already; give every bond once");
         Bond<3> bond;
-        bond.xi = Point<3>(given.places[one.j] - given.places[one.i]);
+        bond.xi = given.vector_between(one.i, one.j);
         bond.weight = one.weight;
         bond.area = given.volumes[one.j];
-        bond.kernel_point = one.kernel_point;
+        bond.kernel_point = one.kernel_point.value_or(bond.xi);
         family.neighbours.push_back(static_cast<unsigned int>(one.j));
         family.bonds.push_back(bond);
         given.lines[f].push_back(one.line);
@@ -161,14 +169,16 @@ namespace plumbline::meshfree
   }
 
   WeightsInSpace read_weights_in_space(const std::string &nodes_file, const std::string &bonds_file,
-                                       const geometry::Cuboid &omega)
+                                       const geometry::Cuboid &omega, bool is_periodic)
   {
     WeightsInSpace given = read_nodes_in_space(nodes_file);
+    if (is_periodic)
+      given.box = {omega.lower, omega.upper};
     Index index;
     for (std::size_t node = 0; node < given.id.size(); ++node)
       index[given.id[node]] = node;
     std::vector<double> roundings;
-    const auto bonds = read_bonds(bonds_file, index, given, roundings);
+    const auto bonds = read_bonds(bonds_file, index, roundings);
     set_families(given, bonds, omega, "file '" + nodes_file + "'", "file '" + bonds_file + "'");
     given.rounding = median(std::move(roundings));
     return given;
@@ -388,12 +398,31 @@ namespace plumbline::meshfree
       return "all weights are " + number(factor) + " times those of " + rule;
     }
 
+    /// Bonds that are longer in the box than to the nearest image, across each pair of sides.
+    std::vector<std::size_t> crossing_bonds(const WeightsInSpace &given)
+    {
+      std::vector<std::size_t> result(3);
+      for (std::size_t f = 0; f < given.free.size(); ++f)
+        for (const unsigned int j : given.families[f].neighbours)
+          for (unsigned int d = 0; d < 3; ++d)
+            result[d] += std::abs(given.places[j][d] - given.places[given.free[f]][d]) >
+                                 .5 * given.box->side(d)
+                             ? 1
+                             : 0;
+      return result;
+    }
+
     void name_causes(const WeightsInSpace &given, const std::optional<Match> &match, double h,
                      const std::vector<std::string> &meant, FindingsInSpace &found)
     {
       constexpr double alike = 1e-4;
       const auto is_meant = [&](const std::string &name)
       { return std::find(meant.begin(), meant.end(), name) != meant.end(); };
+      if (const std::string text = missing_crossings(found.n_crossing); !text.empty())
+      {
+        found.causes.push_back(text);
+        return;
+      }
       if (2 * found.n_unpaired > found.n_bonds / 2 && found.n_unpaired > 0)
       {
         found.causes.push_back("each pair of nodes is listed once: a half list; list every bond "
@@ -435,6 +464,8 @@ namespace plumbline::meshfree
     check_moments(given, kernel, found);
     check_pairs(given, kernel, found);
     found.elastic = elastic_ranges(given.families, kernel);
+    if (given.box)
+      found.n_crossing = crossing_bonds(given);
     std::optional<Match> match;
     if (are_on_lattice(given, found.spacing))
       match = best_match(given, kernel, found.spacing, meant);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "geometry/cube_lattice.h"
+#include "geometry/periodic_box.h"
 #include "meshfree/check/bond_check.h"
 #include "meshfree/check/elastic_check.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,22 +22,27 @@ namespace plumbline::meshfree
     std::vector<Family<3>> families;             ///< of these; neighbours are indices of nodes
     std::vector<std::vector<std::size_t>> lines; ///< of their bonds in the file
     double rounding = 0; ///< of the weights by their digits, relative to most of them
+    /// Where Ω is periodic; bonds are to the nearest images then.
+    std::optional<geometry::PeriodicBox<3>> box;
+
+    /// From a node to its neighbour [length].
+    Point<3> vector_between(std::size_t i, std::size_t j) const;
   };
 
   /// A bond as it is given.
   struct BondInSpace
   {
-    std::size_t i = 0, j = 0; ///< indices of nodes
-    double weight = 0;        ///< [length^3]
-    Point<3> kernel_point;    ///< relative to node i [length]
+    std::size_t i = 0, j = 0;             ///< indices of nodes
+    double weight = 0;                    ///< [length^3]
+    std::optional<Point<3>> kernel_point; ///< relative to node i; empty: at node j [length]
     std::size_t line = 0;
   };
 
   /// The families of nodes in Ω. Bonds of other nodes are left out.
-  /// @param given  with nodes; its families are made
+  /// @param given  with nodes and, where Ω is periodic, its box; its families are made
   /// @param nodes_name, bonds_name  of what is given, for messages: "file 'bonds.csv'"
   /// @throws InputError  a bond of a node with itself or given twice, a kernel point at 0, no node
-  /// in Ω, a node in Ω without bonds
+  /// in Ω, a node in Ω without bonds, as geometry::PeriodicBox::take_in
   void set_families(WeightsInSpace &given, const std::vector<BondInSpace> &bonds,
                     const geometry::Cuboid &omega, const std::string &nodes_name,
                     const std::string &bonds_name);
@@ -51,7 +58,7 @@ namespace plumbline::meshfree
   /// or not known, a bond of a node with itself or given twice, a kernel point at 0, no node in Ω,
   /// a node in Ω without bonds; naming file, line and value
   WeightsInSpace read_weights_in_space(const std::string &nodes_file, const std::string &bonds_file,
-                                       const geometry::Cuboid &omega);
+                                       const geometry::Cuboid &omega, bool is_periodic);
 
   /// Cube root of the volume of Ω over the number of its nodes [length].
   double node_spacing(const WeightsInSpace &given, const geometry::Cuboid &omega);
@@ -61,7 +68,8 @@ namespace plumbline::meshfree
   {
     double spacing = 0; ///< see node_spacing [length]
     std::size_t n_bonds = 0, n_negative = 0;
-    std::size_t n_unpaired = 0; ///< bonds between nodes in Ω without one back
+    std::size_t n_unpaired = 0;          ///< bonds between nodes in Ω without one back
+    std::vector<std::size_t> n_crossing; ///< bonds across the sides of a periodic box, else empty
     /// Of the moments Σ w C_ab ξ^α from those of the ball, |α| = 1 and |α| <= 2, over the largest
     /// second moment times horizon^(|α| - 2).
     Worst first, second;

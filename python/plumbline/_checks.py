@@ -123,7 +123,9 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
               "force constants" (V_i C w: force per length)
     require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
     boundary  "constrained": nodes around the boxes are constrained, and balls are whole; "free": the
-              boundary of the boxes is a free surface, where families are truncated
+              boundary of the boxes is a free surface, where families are truncated; "periodic":
+              opposite sides of one box are joined, all nodes lie in it, and bonds across its sides
+              are to the nodes themselves
     cracks    that no bond may cross: a list of polylines, each of shape (n, 2) [length]
 
     Returns Findings; print() shows its sentences, where nodes are numbered from 0.

@@ -50,7 +50,7 @@ def matrix(problem, method, h=None):
 
 
 def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),
-          bonds_are="weights"):
+          bonds_are="weights", boundary="constrained"):
     """Check weights of L u_i = -sum C(points) (u_j - u_i) w over the bonds of node i.
 
     nodes    shape (n, 3), in the box (free) and within a horizon around it [length]
@@ -62,6 +62,8 @@ def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),
     points   where the kernel is taken, relative to node i, shape (n_bonds, 3); default: node j
     meant    names of the rules that the weights are meant to be
     bonds_are  what w holds: "weights", "stiffness" (C w) or "force constants" (V_i C w)
+    boundary   "constrained": nodes around the box carry data; "periodic": opposite sides of the box
+               are joined, all nodes lie in it, and bonds across its sides are to the nodes themselves
 
     Returns a dict: "is_ac" (moments up to the second are exact), "rule" and "rule_factor" (on a
     lattice of cubes), "causes" and "outliers" (sentences), "first_moments" and "second_moments"
@@ -69,4 +71,4 @@ def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),
     "n_negative", "spacing", "elastic" (least, median and largest of C1111, C1122, C1212, E, nu).
     """
     return _core.check_in_space(nodes, volumes, i, j, w, kernel, box, points, list(meant),
-                                bonds_are)
+                                bonds_are, boundary)

@@ -283,7 +283,7 @@ TEST(CheckCauses, bodies_that_are_not_checked_are_refused_before_all_else)
                                                    "scenes: Domain/cracks is given; clear it, "
                                                    "and give --crack"},
         std::pair{"Domain/boundary=free",
-                  "'plumbline check' does not support free bodies of scenes"}})
+                  "'plumbline check' does not support free bodies and periodic boxes of scenes"}})
   {
     const Outcome outcome = check(nodes_file, bonds_file, more + "--set " + key);
     EXPECT_EQ(outcome.exit_code, 2);

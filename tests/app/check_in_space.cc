@@ -290,6 +290,55 @@ TEST_F(CheckInSpace, names_what_is_wrong)
   }
 }
 
+TEST_F(CheckInSpace, takes_periodic_boxes)
+{
+  // as dump() has them, on a torus of 8 nodes an edge
+  constexpr int edge = 8;
+  constexpr double size = 1. / edge;
+  const auto kernel = physics::Kernel<3>::with_diffusion(
+      physics::kernel_type("linear-decay").profile, m * size, .5);
+  const auto family = lattice_bonds(meshfree::find_rule("IPA-AC-R2", "rule").in_space(kernel),
+                                    kernel, size, geometry::Backend::fast)
+                          .family;
+  const std::string periodic = "--boundary periodic --set Study/h=0.125 --require ac,symmetric";
+  for (const double offset : {.5, 0.})
+    for (const bool has_crossing : {true, false})
+    {
+      Dump one;
+      for (int k = 0; k < edge * edge * edge; ++k)
+      {
+        const std::array<int, 3> at = {k % edge, k / edge % edge, k / edge / edge};
+        one.places.emplace_back((at[0] + offset) * size, (at[1] + offset) * size,
+                                (at[2] + offset) * size);
+        one.volumes.push_back(size * size * size);
+        for (const Bond<3> &bond : family)
+        {
+          std::array<int, 3> to{};
+          bool crosses_z = false;
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            const int target = at[d] + static_cast<int>(std::lround(bond.xi[d] / size));
+            to[d] = (target + edge) % edge;
+            crosses_z = d == 2 && to[d] != target;
+          }
+          if (has_crossing || !crosses_z)
+            one.rows.push_back(
+                {k, to[0] + edge * (to[1] + edge * to[2]), bond.weight, bond.kernel_point});
+        }
+      }
+      write(one);
+      const Outcome outcome = check("IPA-AC-R2", false, periodic);
+      EXPECT_EQ(outcome.exit_code, has_crossing ? 0 : 1) << outcome.out << outcome.err;
+      expect_found(outcome.out, has_crossing
+                                    ? "512 nodes in the periodic box"
+                                    : "no bond crosses the sides of the periodic box in z: ");
+      if (!has_crossing)
+        continue;
+      expect_found(outcome.out, "the weights are those of IPA-AC-R2\n");
+      EXPECT_NE(check("IPA-AC-R2", false, "--set Study/h=0.125").exit_code, 0); // not periodic
+    }
+}
+
 TEST_F(CheckInSpace, gives_elastic_constants_and_json)
 {
   write(dump("IPA-AC-R2", true));

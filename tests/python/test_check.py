@@ -196,3 +196,34 @@ def test_another_horizon_is_asked_about_before_causes():
     assert question.startswith("do h and horizon belong to these bonds? the longest bond is 0.3, but the horizon is 0.5")
     assert "Study" not in question
     assert not any(one.startswith("cause: ") for one in found["complaints"])
+
+
+def test_scattered_nodes_in_a_periodic_box(square):
+    # weights in a larger box, of nodes and their images: no cell is cut at the sides of the square
+    rng = np.random.default_rng(3)
+    grid = np.stack(np.meshgrid(np.arange(16) + .5, np.arange(16) + .5), -1).reshape(-1, 2)
+    nodes = (grid + rng.uniform(-.2, .2, grid.shape)) * H
+    shifts = np.array([(0, 0)] + [(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1) if a or b])
+    everywhere = (nodes + shifts[:, None]).reshape(-1, 2)
+    original = np.tile(np.arange(256), 9)
+    near = np.all(np.abs(everywhere - .5) < .5 + 7 * H, axis=1)
+    everywhere, original = everywhere[near], original[near]
+    w = plumbline.weights("IPA-AC-R2", KERNEL, nodes=everywhere, h=H,
+                          boxes=((-4 * H, -4 * H), (1 + 4 * H, 1 + 4 * H)))
+    rows = w.i < 256  # nodes come before their images
+    i, j, weights, points = w.i[rows], original[w.j[rows]], w.w[rows], w.points[rows]
+    crossing = j != w.j[rows]
+    assert np.count_nonzero(crossing) > 500
+
+    def found(keep=slice(None), **given):
+        return plumbline.check(nodes, np.full(256, H * H), i[keep], j[keep], weights[keep], KERNEL,
+                               **(dict(boxes=square, points=points[keep], boundary="periodic", h=H)
+                                  | given))
+    right = found()
+    pairs = set(zip(i.tolist(), j.tolist()))  # a ball may cut a cell whose ball does not cut its own
+    assert right["n_free"] == 256
+    assert right["symmetry"]["n_unpaired"] == sum((b, a) not in pairs for a, b in pairs) > 0
+    assert right["moments"]["degrees"][1]["worst"]["value"] < 1e-10
+    assert "the periodic box in x and y" in found(~crossing)["complaints"][0]
+    with pytest.raises(plumbline.InputError, match="boundary = 'torus' is not known"):
+        found(boundary="torus")

@@ -7,6 +7,8 @@ import subprocess
 import numpy as np
 import pytest
 
+import plumbline
+
 from plumbline import space
 
 n, m = 5, 2
@@ -53,6 +55,22 @@ def test_wrong_weights_are_named():
         return w
     assert len(check("IPA-AC-R2", kernel, one_off)["outliers"]) == 1
     assert "ramp of LAMMPS" in check("FA", kernel, meant=["LAMMPS"])["causes"][0]
+
+
+def test_periodic_boxes():
+    n, h = 8, 1 / 8
+    kernel = space.Kernel("linear-decay", 2 * h, diffusion=.5)
+    family = space.weights("IPA-AC-R2", kernel, h)
+    at = np.array(list(itertools.product(range(n), repeat=3)))
+    to = (at[:, None] + family.offsets) % n
+    given = dict(i=np.repeat(np.arange(n**3), len(family.w)), j=(to @ [n * n, n, 1]).ravel(),
+                 w=np.tile(family.w, n**3), points=np.tile(family.points, (n**3, 1)))
+    box = dict(kernel=kernel, box=((0, 0, 0), (1, 1, 1)), boundary="periodic")
+    found = space.check(at * h, np.full(n**3, h**3), **given, **box)
+    assert found["is_ac"] and found["rule"] == "IPA-AC-R2" and not found["causes"]
+    assert found["n_unpaired"] == 0 and found["imbalance"] < 1e-12
+    with pytest.raises(plumbline.InputError, match="outside of the periodic box"):
+        space.check(at * h - h, np.full(n**3, h**3), **given, **box)
 
 
 def test_solutions_are_those_of_the_command(root, tmp_path):

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "geometry/polygon.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace plumbline::geometry
+{
+  /// A box whose opposite sides are joined: what leaves it on one side comes in on the other.
+  template <int dim>
+  struct PeriodicBox
+  {
+    Point<dim> lower, upper; ///< [length]
+
+    double side(unsigned int d) const { return upper[d] - lower[d]; }
+
+    /// The shortest vector from a node to the images of another.
+    /// @param xi  from the one to the other as they lie in the box [length]
+    Point<dim> shortest(Point<dim> xi) const;
+
+    /// Moves nodes on the upper sides to the lower ones, where their images are.
+    /// @param name  of each node, for messages: "node 7"
+    /// @throws InputError  a node outside of the box, two nodes that are images of each other
+    void take_in(std::vector<Point<dim>> &nodes,
+                 const std::function<std::string(std::size_t)> &name) const;
+
+    /// No bond may reach half around the box.
+    /// @throws InputError  a side no longer than 2 (horizon + h)
+    void check_sides(double horizon, double h) const;
+  };
+} // namespace plumbline::geometry

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "meshfree/check/bond_file.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline::meshfree
+{
+  /// Adds the images of all nodes that lie in the mesh, which covers their periodic box and its
+  /// collar. Images have the id, volume and line of their node.
+  /// @pre  nodes.box is there, and has taken the nodes in
+  void add_images(const geometry::Mesh &mesh, GivenNodes &nodes);
+
+  /// Which images the bonds of a periodic box are to.
+  class NearestImages
+  {
+  public:
+    NearestImages(const GivenNodes &nodes, const geometry::NodeCells<2> &cells);
+
+    /// Of the node of cell j and its images, the one nearest to the node of cell i.
+    unsigned int nearest(unsigned int j, unsigned int i) const;
+
+  private:
+    const geometry::NodeCells<2> &cells_;
+    std::vector<std::vector<unsigned int>> images_; ///< of each node, itself among them
+  };
+
+  /// Bonds to images as bonds to the nodes themselves; neighbours in ascending order.
+  std::vector<Family<2>> without_images(const std::vector<Family<2>> &families,
+                                        const GivenNodes &nodes,
+                                        const geometry::NodeCells<2> &cells);
+
+  /// The number of bonds that cross each pair of opposite sides of the box.
+  std::vector<std::size_t> crossing_bonds(const std::vector<Family<2>> &families,
+                                          const GivenNodes &nodes,
+                                          const geometry::NodeCells<2> &cells);
+
+  /// What is wrong where no bond crosses some of the sides.
+  /// @param n_crossing  bonds, in x, y and z
+  /// @return  empty: bonds cross all of them
+  std::string missing_crossings(const std::vector<std::size_t> &n_crossing);
+} // namespace plumbline::meshfree
