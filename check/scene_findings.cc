@@ -257,10 +257,12 @@ namespace plumbline::check
     scene.methods.nodes = {std::filesystem::absolute(input.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
     found.level = choose_level(scene, weights.nodes);
-    const geometry::Mesh mesh = scene::make_mesh(scene, found.level.level);
+    const problem::Level &level = found.level.level;
+    const geometry::Mesh mesh =
+        scene::make_mesh(scene, {level.h, body.is_periodic() ? body.collar(level) : level.horizon});
     if (body.is_free())
       body.parts = parts_of(scene, mesh);
-    add_images(mesh, found.level.level, weights.nodes);
+    add_images(mesh, level, weights.nodes);
     check_places(weights.nodes, mesh,
                  found.level.text() + (found.level.is_near()
                                            ? ""

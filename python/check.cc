@@ -83,15 +83,15 @@ namespace plumbline::python
     {
       check::take_into_box(body, domain, nodes);
       const bool is_free = body.is_free(), has_data = boundary_is_data && !body.is_periodic();
-      const geometry::Mesh mesh =
-          geometry::lattice_mesh(domain, h, is_free ? 0 : kernel.horizon(), false);
+      const problem::Level level{h, kernel.horizon()};
+      const geometry::Mesh mesh = geometry::lattice_mesh(domain, h, body.collar(level), false);
       if (is_free)
         body.parts = geometry::convex_parts(domain);
-      check::add_images(mesh, {h, kernel.horizon()}, nodes);
+      check::add_images(mesh, level, nodes);
       meshfree::check_places(nodes, mesh, "h = " + base::to_text(h, 6));
       meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, has_data && !is_free);
       check::Findings found;
-      found.level = {{h, kernel.horizon()}, "given", meshfree::node_spacing(nodes, mesh)};
+      found.level = {level, "given", meshfree::node_spacing(nodes, mesh)};
       found.n_on_boundary = boundary_is_data || is_free ? 0 : cells.n_on_boundary;
       meshfree::GivenWeights weights;
       weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
