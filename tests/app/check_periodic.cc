@@ -22,7 +22,7 @@ namespace
   using dealii::Point;
   using meshfree::Bond;
 
-  constexpr int n = 15; // h is no short decimal: images stand on the collar's edge to rounding
+  constexpr int n = 15;
   constexpr double h = 1. / n;
   const std::string periodic = "--boundary periodic --set Study/h=1/15 ";
 

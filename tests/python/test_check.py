@@ -227,3 +227,16 @@ def test_scattered_nodes_in_a_periodic_box(square):
     assert "the periodic box in x and y" in found(~crossing)["complaints"][0]
     with pytest.raises(plumbline.InputError, match="boundary = 'torus' is not known"):
         found(boundary="torus")
+
+
+def test_nodes_on_the_sides_of_a_periodic_box(square):
+    n = 19  # images at a horizon from the box stand outside of its collar by rounding
+    h = 1 / n
+    at = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), -1).reshape(-1, 2)
+    offsets = np.array([(a, b) for a in range(-3, 4) for b in range(-3, 4) if 0 < a*a + b*b <= 9])
+    j = ((at[:, None] + offsets) % n) @ [n, 1]
+    i = np.repeat(np.arange(n * n), len(offsets))
+    found = plumbline.check(at * h, np.full(n * n, h * h), i, j.ravel(), np.full(len(i), h * h),
+                            plumbline.Kernel("linear-decay", horizon=3 * h, diffusion=.5),
+                            boxes=square, h=h, boundary="periodic", require="moments=0.1")
+    assert found.passed and found["rule"] == "FA"
