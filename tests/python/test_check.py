@@ -230,7 +230,7 @@ def test_scattered_nodes_in_a_periodic_box(square):
 
 
 def test_nodes_on_the_sides_of_a_periodic_box(square):
-    n = 19  # images at a horizon from the box stand outside of its collar by rounding
+    n = 46  # images at a horizon from the box stand outside of its collar by rounding
     h = 1 / n
     at = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), -1).reshape(-1, 2)
     offsets = np.array([(a, b) for a in range(-3, 4) for b in range(-3, 4) if 0 < a*a + b*b <= 9])
