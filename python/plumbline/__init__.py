@@ -16,6 +16,7 @@ from ._checks import Findings, Weights, check, weights
 from ._files import Nodes, read_nodes
 from ._grade import certified_problem, certified_problems, grade
 from ._matrix import Matrix, load_matrix, matrix
+from ._meshes import to_meshio, to_pyvista
 from ._moduli import moduli, moduli_of_weights
 from . import space
 from ._studies import Record, Records, Study, certify, crack, dispersion, grow, run, stability, strip
@@ -24,4 +25,4 @@ __all__ = ["Findings", "InputError", "Kernel", "Matrix", "Nodes", "NumericalErro
            "Records", "Rule", "Solution", "Study", "Weights", "certified_problem", "certified_problems", "certify",
            "check", "crack", "dispersion", "grade", "grow", "kernels", "load_matrix", "matrix", "methods", "moduli",
            "moduli_of_weights", "read_nodes", "reference", "run", "set_threads", "solve", "space", "stability",
-           "strip", "weights"]
+           "strip", "to_meshio", "to_pyvista", "weights"]

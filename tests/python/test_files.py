@@ -178,3 +178,34 @@ def test_files_that_are_missing_or_of_no_mesh_are_refused(tmp_path):
     (tmp_path / "no.vtu").write_text("<VTKFile")
     with pytest.raises(plumbline.InputError, match="meshio cannot read it"):
         plumbline.read_nodes(tmp_path / "no.vtu")
+
+
+def test_solutions_become_meshes_of_meshio(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    kernel = plumbline.Kernel("linear-decay", horizon=3 / 8, diffusion=.5)
+    problem = plumbline.Problem(kernel, boxes=((0, 0), (1, 1)), h=1 / 8, solution="1 + 2*x*y")
+    for method, kind, n in (("Q1", "quad", 64), ("IPA-AC-R2", "vertex", 64)):
+        solution = plumbline.solve(problem, method)
+        mesh = plumbline.to_meshio(solution)
+        assert [(block.type, len(block.data)) for block in mesh.cells] == [(kind, n)]
+        x, y = mesh.points.T[:2]
+        assert np.allclose(mesh.point_data["u"], 1 + 2 * x * y, atol=1e-10)
+        mesh.write(tmp_path / "u.vtk")
+        assert np.array_equal(meshio.read(tmp_path / "u.vtk").point_data["u"], mesh.point_data["u"])
+
+
+def test_solutions_in_space_become_cubes_of_meshio():
+    pytest.importorskip("meshio")
+    space = plumbline.space
+    kernel = space.Kernel("linear-decay", 1 / 2, diffusion=.5)
+    problem = space.Problem(kernel, box=((1, 0, 0), (2, 1, 1)), h=1 / 4, solution="x + 2*y - z")
+    solution = space.solve(problem, "IPA-AC-R2")
+    mesh = plumbline.to_meshio(solution)
+    (block,), (averages,) = mesh.cells, mesh.cell_data["average of u"]
+    corners = mesh.points[block.data]
+    assert block.type == "hexahedron" and corners.shape == (64, 8, 3) and len(mesh.points) == 125
+    assert np.allclose(corners.mean(axis=1), solution.cells)
+    assert np.allclose(averages, corners.mean(axis=1) @ [1, 2, -1], atol=1e-9)
+    # VTK's order of corners: the volume by three edges is positive
+    edges = corners[:, [1, 3, 4]] - corners[:, :1]
+    assert np.allclose(np.linalg.det(edges), 1 / 64)
