@@ -13,6 +13,7 @@
 #include "report/formats.h"
 #include "report/pdf.h"
 #include "report/sample_files.h"
+#include "report/sample_points.h"
 #include "report/sampling_page.h"
 #include "study/growth_analysis.h"
 #include "study/sample_taker.h"
@@ -244,6 +245,10 @@ namespace plumbline::driver
         conclude_samples(scene, plan, [&](std::size_t i) { return files.read(i); });
     const std::vector<std::string> faults = sampling_faults(results, scene.expected);
     report::write_sampling(results, faults, folder);
+    report::write_sample_points(plan, results.variables, folder / "sample" / "weights.csv");
+    if (scene.output.fields && results.spectrum)
+      report::write_modes(*scene.random.source->expansion(), scene.domain.origin,
+                          folder / "sample" / "modes.csv");
     if (options.pdf)
       report::draw_pdf(folder);
     if (options.json)

@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace
 {
@@ -349,6 +351,79 @@ TEST(SampleCommand, charts_the_variance_that_modes_hold)
           folder.string());
   expect_found(statics.err, "3 modes hold 32.5 % of the variance");
   expect_found(read(folder / "report.html"), "3 modes hold");
+  fs::remove_all(folder);
+}
+
+namespace
+{
+  /// Columns by their names; empty cells are 0.
+  std::map<std::string, std::vector<double>> columns_of(const fs::path &file)
+  {
+    std::istringstream lines(read(file));
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<double>> columns;
+    std::string line, cell;
+    std::getline(lines, line);
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      names.push_back(cell);
+    while (std::getline(lines, line))
+    {
+      std::istringstream cells(line);
+      for (const std::string &name : names)
+      {
+        cell.clear();
+        std::getline(cells, cell, ',');
+        columns[name].push_back(cell.empty() ? 0 : std::stod(cell));
+      }
+    }
+    return columns;
+  }
+} // namespace
+
+TEST(SampleCommand, writes_weights_and_modes)
+{
+  const fs::path folder = temporary("sample");
+  const Outcome outcome =
+      run("sample " + std::string(PLUMBLINE_SCENES) +
+          "/random/modes.prm --levels 1 --set Output/fields=true --set Sampling/counts=1,2 --set "
+          "Sampling/modes=1,3 -o " +
+          folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  auto weights = columns_of(folder / "sample/weights.csv");
+  unsigned int n_sets = 0;
+  for (const auto &[name, weight] : weights)
+    if (name.find("weight of ") == 0)
+    {
+      ++n_sets; // a standard normal variable: mean 0 and, from 3 points on, variance 1
+      double sum = 0, mean = 0, variance = 0;
+      for (std::size_t i = 0; i < weight.size(); ++i)
+      {
+        const double xi = weights["mode 1"][i];
+        sum += weight[i];
+        mean += weight[i] * xi;
+        variance += weight[i] * xi * xi;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12) << name;
+      EXPECT_NEAR(mean, 0, 1e-12) << name;
+      EXPECT_NEAR(variance, 1, 1e-12) << name;
+    }
+  EXPECT_EQ(n_sets, 4u);
+  // modes: the share of the first two, over the grid, is that of the spectrum
+  const Json json = Json::parse(read(folder / "sample.json"));
+  auto modes = columns_of(folder / "sample/modes.csv");
+  const auto squares = [&](const std::string &name)
+  {
+    double sum = 0;
+    for (const double value : modes[name])
+      sum += value * value;
+    return sum;
+  };
+  const double whole = squares("standard deviation");
+  for (unsigned int k = 0; k < 3; ++k)
+    EXPECT_NEAR(squares("mode " + std::to_string(k + 1)) / whole, json["spectrum"][k], 1e-10) << k;
+  const auto [least, largest] = std::minmax_element(modes["x"].begin(), modes["x"].end());
+  EXPECT_GT(*least, 0);
+  EXPECT_LT(*largest, 1);
   fs::remove_all(folder);
 }
 

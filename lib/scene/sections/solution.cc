@@ -91,7 +91,8 @@ namespace plumbline::scene
     keys.add(
         "fields", fields, yes_or_no(),
         "Write the solutions of the finest levels as VTK files (.vtu, in three dimensions .vti; in "
-        "one dimension as a table of x and u, .csv).");
+        "one dimension as a table of x and u, .csv); of 'sample' the modes of the random field "
+        "(sample/modes.csv).");
     keys.add(
         "points", points, any_text(),
         "CSV file with columns x and y (x, y and z in three dimensions, x in one): points in the "
