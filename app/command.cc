@@ -306,6 +306,7 @@ namespace plumbline::app
       command.add_option("--threads", options->n_threads,
                          "Threads of each process (default: all cores, shared among them)");
       command.add_flag("--worker", options->is_worker)->group(""); // what it begins itself
+      command.add_option("--growth-solver", options->growth_solver)->group("");
       set_action(command, request, options, sample, true);
       command.parse_complete_callback(
           [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });

@@ -2,25 +2,27 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
-#include "base/first_rank.h"
 #include "base/number_text.h"
 #include "base/progress_line.h"
 #include "base/workers.h"
 #include "driver/interrupts.h"
 #include "driver/methods.h"
 #include "io/output_folder.h"
+#include "io/record_journal.h"
 #include "report/counted.h"
 #include "report/formats.h"
 #include "report/pdf.h"
-#include "report/sample_files.h"
 #include "report/sample_points.h"
 #include "report/sampling_page.h"
 #include "study/growth_analysis.h"
 #include "study/sample_taker.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 namespace plumbline::driver
@@ -47,39 +49,64 @@ namespace plumbline::driver
       return scene;
     }
 
-    /// All that samples depend on.
-    std::string subject_of(const SampleOptions &options, const scene::Scene &scene)
+    /// A journal for each sample, which has its records in one line or is not there.
+    struct SampleJournals
     {
-      return "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text;
-    }
+      fs::path folder;
+      std::string subject; ///< all that samples depend on
 
-    /// A sample, with the reason if it fails.
-    study::SampleRecord take(const scene::Scene &scene, const study::SamplingPlan &plan,
-                             std::size_t sample, const report::SampleFiles &files)
+      fs::path file(std::size_t sample) const
+      {
+        std::array<char, 32> name{};
+        std::snprintf(name.data(), name.size(), "%06zu.jsonl", sample);
+        return folder / name.data();
+      }
+
+      std::optional<study::Records> read(std::size_t sample) const
+      {
+        study::StudyResults taken = io::RecordJournal(file(sample), subject).earlier();
+        if (taken.analysis.empty()) // also where the file is not whole, or of another subject
+          return {};
+        return std::move(taken.records);
+      }
+
+      void write(std::size_t sample, study::Records records) const
+      {
+        study::StudyResults taken;
+        taken.analysis = "sample";
+        taken.records = std::move(records);
+        io::RecordJournal(file(sample), subject).append(taken);
+      }
+    };
+
+    /// The records of a sample, or one with the reason if it fails.
+    study::Records take(const scene::Scene &scene, const study::SamplingPlan &plan,
+                        std::size_t sample, const fs::path &folder)
+    try
     {
-      study::SampleRecord record;
-      record.sample = sample;
-      try
-      {
-        record.cases = study::sample_taker(scene, all_methods())
-                           .take(plan.at(scene, sample),
-                                 files.folder() / ("sample_" + std::to_string(sample)));
-      }
-      catch (const std::exception &error) // of any kind, out of memory too: the others go on
-      {
-        record.failure = error.what();
-      }
-      return record;
+      return study::sample_taker(scene, all_methods())
+          .take(plan.at(scene, sample), folder / ("sample_" + std::to_string(sample)));
+    }
+    catch (const std::exception &error) // of any kind, out of memory too: the others go on
+    {
+      study::Record failed;
+      failed.failure = error.what();
+      failed.key.h = scene.study.series.front().levels.front().h;
+      failed.key.horizon = scene.study.series.front().levels.front().horizon;
+      return {failed};
     }
 
     /// What a worker does: samples whose numbers come from standard input.
-    int take_samples(const scene::Scene &scene, const study::SamplingPlan &plan,
-                     const report::SampleFiles &files)
+    int take_samples(SampleOptions options, const SampleJournals &journals)
     {
       base::end_with_parent();
+      if (!options.growth_solver.empty())
+        options.overrides.push_back({"Fracture/solver", options.growth_solver});
+      const scene::Scene scene = read(options);
+      const study::SamplingPlan plan = study::make_sampling_plan(scene);
       for (std::uint64_t number = 0; base::next_task(number);)
         if (number < plan.values.size())
-          files.write(take(scene, plan, number, files));
+          journals.write(number, take(scene, plan, number, journals.folder));
       return 0;
     }
 
@@ -106,9 +133,8 @@ namespace plumbline::driver
       for (const scene::Override &one : options.overrides)
         arguments.insert(arguments.end(), {"--set", one.key + "=" + one.value});
       if (study::is_growth(scene))
-        arguments.insert(
-            arguments.end(),
-            {"--set", "Fracture/solver=" + base::word(study::expected_size(scene, n_jobs).solver)});
+        arguments.insert(arguments.end(), {"--growth-solver",
+                                           base::word(study::expected_size(scene, n_jobs).solver)});
       if (!options.methods.empty())
         arguments.insert(arguments.end(), {"--methods", options.methods});
       if (options.n_levels > 0)
@@ -135,47 +161,18 @@ namespace plumbline::driver
                   << " bonds; those that wind take up to three times as long\n";
     }
 
-    /// How long the rest will take, once some samples are there.
-    class Forecast
-    {
-    public:
-      Forecast(std::size_t n_left, bool is_wanted) : n_left_(n_left), is_wanted_(is_wanted) {}
-
-      void tell(std::size_t n_done)
-      {
-        constexpr double worth_saying = 30; // [s]
-        if (!is_wanted_ || n_done == 0 || is_said_)
-          return;
-        is_said_ = true;
-        const double each = seconds() / static_cast<double>(n_done);
-        const double left = each * static_cast<double>(n_left_ - n_done);
-        if (left > worth_saying)
-          std::cerr << n_left_ << " samples; by the first of them the others will take some "
-                    << report::rounded_seconds(left) << '\n';
-      }
-
-    private:
-      double seconds() const
-      {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-      }
-      std::size_t n_left_;
-      bool is_wanted_, is_said_ = false;
-      std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    };
-
     /// All samples that are not there yet.
     void take_all(const SampleOptions &options, const scene::Scene &scene,
-                  const study::SamplingPlan &plan, const report::SampleFiles &files,
+                  const study::SamplingPlan &plan, const SampleJournals &journals,
                   const fs::path &folder)
     {
       const base::Communicator communicator = base::Communicator::all();
       const unsigned int n_jobs = n_processes(options, plan);
       std::vector<std::uint64_t> due;
       for (std::size_t i = communicator.rank(); i < plan.values.size(); i += communicator.n_ranks())
-        if (!files.read(i)) // there is none, or it is not whole
+        if (!journals.read(i))
         {
-          files.remove(i);
+          fs::remove(journals.file(i)); // of another subject, or not whole
           due.push_back(i);
         }
       const bool is_talking = !options.quiet && communicator.rank() == 0;
@@ -185,22 +182,17 @@ namespace plumbline::driver
       if (is_talking && study::is_growth(scene))
         tell_size(scene, due.size(), n_jobs, communicator.n_ranks());
       base::ProgressLine progress(is_talking);
-      Forecast forecast(due.size(), is_talking);
-      const auto n_done = [&]
-      {
-        return static_cast<std::size_t>(
-            std::count_if(due.begin(), due.end(), [&](std::uint64_t i) { return files.has(i); }));
-      };
       std::size_t n_waits = 0;
       const auto wait = [&]
       {
         constexpr std::size_t rarely = 10; // of tenths of a second
         if (is_talking && ++n_waits % rarely == 0)
         {
-          const std::size_t n = n_done();
-          forecast.tell(n);
-          progress.show(std::to_string(n) + " of " + std::to_string(due.size()) + " samples",
-                        static_cast<double>(n) / static_cast<double>(due.size()));
+          const auto n_done =
+              std::count_if(due.begin(), due.end(),
+                            [&](std::uint64_t i) { return fs::exists(journals.file(i)); });
+          progress.show(std::to_string(n_done) + " of " + std::to_string(due.size()) + " samples",
+                        static_cast<double>(n_done) / static_cast<double>(due.size()));
         }
         return !is_interrupted();
       };
@@ -219,30 +211,25 @@ namespace plumbline::driver
     if (options.pdf)
       report::require_pdf();
     const scene::Scene scene = read(options);
-    const study::SamplingPlan plan = study::make_sampling_plan(scene);
     const fs::path folder = output_folder(options, scene);
-    const report::SampleFiles files(folder / "samples", subject_of(options, scene));
+    const SampleJournals journals{
+        folder / "samples", "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text};
     if (options.is_worker)
-      return take_samples(scene, plan, files);
+      return take_samples(options, journals);
 
+    const study::SamplingPlan plan = study::make_sampling_plan(scene);
     study::sample_taker(scene, all_methods()).check(scene, folder, n_processes(options, plan));
     const base::Communicator communicator = base::Communicator::all();
     const io::OutputFolder output(folder, {"sample", scene.name, scene.text, note}, communicator);
-    base::on_first_rank(communicator,
-                        [&]
-                        {
-                          if (!files.are_there())
-                            files.begin();
-                        });
     watch_interrupts("\ninterrupted: ending the sampling processes, then writing the results of "
                      "finished samples; press Ctrl-C again to stop at once\n");
-    take_all(options, scene, plan, files, folder);
+    take_all(options, scene, plan, journals, folder);
     communicator.wait();
     if (communicator.rank() != 0)
       return 0;
 
     const study::SamplingResults results =
-        conclude_samples(scene, plan, [&](std::size_t i) { return files.read(i); });
+        conclude_samples(scene, plan, [&](std::size_t i) { return journals.read(i); });
     const std::vector<std::string> faults = sampling_faults(results, scene.expected);
     report::write_sampling(results, faults, folder);
     report::write_sample_points(plan, results.variables, folder / "sample" / "weights.csv");

@@ -10,6 +10,7 @@ namespace plumbline::driver
     unsigned int n_threads = 0; ///< of each process; 0: the machine's, shared among them
     bool check = false;         ///< Expected/sampling
     bool is_worker = false;     ///< takes numbers of samples from standard input, see take_samples
+    std::string growth_solver; ///< of a worker, instead of the scene's; records do not depend on it
   };
 
   /// Take a random scene at the samples of its section Sampling: statics ('plumbline run') or

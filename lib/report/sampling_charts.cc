@@ -253,10 +253,7 @@ namespace plumbline::report
     if (std::none_of(results.cases.begin(), results.cases.end(), is_growth))
       return {};
     const CaseStatistics &one = results.cases.front();
-    const study::SampleField &places = one.field->places;
-    std::vector<dealii::Point<2>> nodes;
-    for (std::size_t i = 0; i < places.x.size(); ++i)
-      nodes.push_back({places.x[i], places.y[i]});
+    const auto &nodes = one.field->places.points;
     const MapCells cells = cells_of(nodes, one.of.h);
     const std::string title = "Damage: broken bonds";
     const bool is_cut = results.cases.back().sets.back().negative_part > 0;

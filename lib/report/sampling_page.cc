@@ -111,7 +111,7 @@ namespace plumbline::report
                              ", 95 % confidence interval " + rounded(s.mean - s.confidence) +
                              " to " + rounded(s.mean + s.confidence)
                        : "");
-      const study::SampleCase &of = r.cases.back().of;
+      const study::Key &of = r.cases.back().of;
       return text.empty() ? ""
                           : "Means by " + of.method + " at h = " + rounded(of.h) + " over " +
                                 counted(set->n_samples, "sample") + ": " + text + ". ";

@@ -24,7 +24,7 @@ namespace plumbline::study
       return std::all_of(cases.begin(), cases.end(),
                          [&](const CaseStatistics &other)
                          {
-                           return !other.of.is_same_method(one.of) ||
+                           return !other.of.is_same_series(one.of) ||
                                   other.of.level < one.of.level ||
                                   std::all_of(other.sets.begin(), other.sets.end(), is_below);
                          });

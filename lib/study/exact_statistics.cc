@@ -10,6 +10,8 @@
 
 namespace plumbline::study
 {
+  using analysis::PointField;
+
   namespace
   {
     using dealii::Point;
@@ -35,27 +37,27 @@ namespace plumbline::study
     /// Values of the target at places, at a sample.
     using Evaluate = std::function<std::vector<double>(const scene::Scene &)>;
 
-    Evaluate evaluate_at(const std::pair<std::string, std::string> &target, const SampleCase &one,
+    Evaluate evaluate_at(const std::pair<std::string, std::string> &target, const Record &one,
                          std::size_t stride)
     {
-      return [=, places = one.field, horizon = one.horizon](const scene::Scene &scene)
+      return [=, places = sampled_field(one), horizon = one.key.horizon](const scene::Scene &scene)
       {
         const physics::Expression u(target.first, target.second,
                                     scene.names(horizon, scene.time.final_time));
         std::vector<double> values;
-        for (std::size_t i = 0; i < places.x.size(); i += stride)
+        for (std::size_t i = 0; i < places.points.size(); i += stride)
           for (unsigned int c = 0; c < places.n_components; ++c)
-            values.push_back(u(Point<2>(places.x[i], places.y[i]), c));
+            values.push_back(u(places.points[i], c));
         return values;
       };
     }
 
     /// The same of averages over the comparison cells.
-    Evaluate averages_at(const scene::Scene &scene, std::size_t case_index, const SampleCase &one)
+    Evaluate averages_at(const scene::Scene &scene, std::size_t case_index, const Record &one)
     {
       const problem::Field<2> nothing{[](const Point<2> &, unsigned int) { return 0.; },
                                       std::nullopt};
-      const problem::Level level{one.h, one.horizon};
+      const problem::Level level{one.key.h, one.key.horizon};
       const auto place = std::make_shared<const problem::Problem<2>>(
           make_problem(scene, static_cast<unsigned int>(case_index), level, 0, &nothing));
       const bool is_local = scene.study.decisive_error.target == scene::Target::local;
@@ -86,16 +88,17 @@ namespace plumbline::study
     }
   } // namespace
 
-  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one)
+  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const Record &one)
   {
+    const PointField &places = sampled_field(one);
     const std::vector<uq::Law> laws = scene.random.laws();
     const bool is_drawn = scene.random.field != scene::FieldKind::none;
     const std::vector<std::string> cases = scene.problem.case_names();
     const auto case_index = static_cast<std::size_t>(
-        std::find(cases.begin(), cases.end(), one.problem) - cases.begin());
+        std::find(cases.begin(), cases.end(), one.key.problem) - cases.begin());
     const auto target = target_text(scene, case_index);
     if (!target || laws.empty() || laws.size() > n_gauss.size() || is_drawn ||
-        one.field.values.empty())
+        places.values.empty())
       return {};
     const bool is_nodal =
         scene.time.is_dynamic() ||
@@ -107,12 +110,12 @@ namespace plumbline::study
         scene, rule, is_nodal ? evaluate_at(*target, one, 1) : averages_at(scene, case_index, one));
     // by fewer points, of values at some places, from which averages differ little
     constexpr std::size_t n_places = 40;
-    const std::size_t stride = std::max<std::size_t>(1, one.field.x.size() / n_places);
+    const std::size_t stride = std::max<std::size_t>(1, places.points.size() / n_places);
     const Evaluate some = evaluate_at(*target, one, stride);
     const auto fine = moments(scene, rule, some),
                coarse = moments(scene, tensor_points(laws, 3 * n / 4), some);
     double area = 0;
-    for (const double part : one.field.area)
+    for (const double part : places.areas)
       area += part;
     const auto change = [&](const std::vector<double> &a, const std::vector<double> &b)
     {
@@ -126,24 +129,25 @@ namespace plumbline::study
     return result;
   }
 
-  ExactStatistics at_places(const ExactStatistics &statistics, const SampleField &from,
-                            const SampleField &to)
+  ExactStatistics at_places(const ExactStatistics &statistics, const PointField &from,
+                            const PointField &to)
   {
-    if (from.x == to.x && from.y == to.y)
+    if (from.points == to.points)
       return statistics;
-    for (const SampleField *const field : {&from, &to})
-      if (const auto [least, most] = std::minmax_element(field->area.begin(), field->area.end());
+    for (const PointField *const field : {&from, &to})
+      if (const auto [least, most] = std::minmax_element(field->areas.begin(), field->areas.end());
           *most > (1 + 1e-12) * *least)
         throw InputError("levels are held against each other by averages over squares; take nodes "
                          "of lattices (Methods/nodes), or one level (Study/h)");
-    const auto squares = [](const SampleField &field)
+    const auto squares = [](const PointField &field)
     {
       CellPieces cells;
-      for (std::size_t i = 0; i < field.x.size(); ++i)
+      for (std::size_t i = 0; i < field.points.size(); ++i)
       {
-        const double r = .5 * std::sqrt(field.area[i]), x = field.x[i], y = field.y[i];
+        const double r = .5 * std::sqrt(field.areas[i]), x = field.points[i][0],
+                     y = field.points[i][1];
         cells.cell.push_back(i);
-        cells.area.push_back(field.area[i]);
+        cells.area.push_back(field.areas[i]);
         cells.pieces.push_back({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}});
       }
       return cells;

@@ -16,15 +16,15 @@ namespace plumbline::study
   /// By many Gauss points in each variable, without any solve: Problem/solution or Problem/local
   /// solution at every one of them. The uncertainty is the change from three quarters as many, at
   /// some of the places.
-  /// @param one  whose places are taken; its level says where averages are
+  /// @param one  of a sample, whose places are taken; its level says where averages are
   /// @throws InputError  the target is not finite at such a point, which may be far out
   /// @return nothing where the target is no expression, or there are more than three variables, or
   /// a field that is drawn whole
-  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const SampleCase &one);
+  std::optional<ExactStatistics> exact_statistics(const scene::Scene &scene, const Record &one);
 
   /// The same at other places: averages over squares, each about its place, from others', by the
   /// areas that they share.
   /// @throws InputError  places that stand for areas of several sizes
-  ExactStatistics at_places(const ExactStatistics &statistics, const SampleField &from,
-                            const SampleField &to);
+  ExactStatistics at_places(const ExactStatistics &statistics, const analysis::PointField &from,
+                            const analysis::PointField &to);
 } // namespace plumbline::study

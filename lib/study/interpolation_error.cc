@@ -126,7 +126,7 @@ namespace plumbline::study
   }
 
   std::optional<double> InterpolationError::Sums::largest(std::size_t set,
-                                                          const SampleField &places) const
+                                                          const analysis::PointField &places) const
   {
     if (errors_[set].empty() || n_added_[set] < of_.sets_[set].parts.size())
       return {};
@@ -135,7 +135,7 @@ namespace plumbline::study
     {
       double sum = 0;
       for (std::size_t i = 0; i < error.size(); ++i)
-        sum += places.area[i / places.n_components] * error[i] * error[i];
+        sum += places.areas[i / places.n_components] * error[i] * error[i];
       if (!std::isfinite(sum))
         throw NumericalError("the interpolant between samples is not finite");
       largest = std::max(largest, std::sqrt(sum));

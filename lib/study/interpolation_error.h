@@ -32,7 +32,7 @@ namespace plumbline::study
       void add(std::size_t sample, const std::vector<double> &field);
 
       /// Nothing where there are no other samples, or some are missing.
-      std::optional<double> largest(std::size_t set, const SampleField &places) const;
+      std::optional<double> largest(std::size_t set, const analysis::PointField &places) const;
 
     private:
       const InterpolationError &of_;

@@ -6,10 +6,11 @@
 
 namespace plumbline::study
 {
-  /// The records of an analysis by the scalars and the field that samples count.
+  /// The records of an analysis with no more than the scalars and the field that samples count, and
+  /// its variants as methods.
   /// @param ranks  that run it together
   /// @throws NumericalError  a record has a failure
-  std::vector<SampleCase>
-  sample_study(const Analysis &analysis, const scene::Scene &scene, const Methods &available,
-               const base::Communicator &ranks = base::Communicator::alone());
+  Records sample_study(const Analysis &analysis, const scene::Scene &scene,
+                       const Methods &available,
+                       const base::Communicator &ranks = base::Communicator::alone());
 } // namespace plumbline::study

@@ -54,20 +54,20 @@ namespace plumbline::study
               {
                 const bool is_resumed = fs::exists(own / "checkpoint.h5");
                 std::error_code not_there;
-                std::vector<SampleCase> cases;
+                Records records;
                 try
                 {
-                  cases = take(sample, own);
+                  records = take(sample, own);
                 }
                 catch (const InputError &)
                 {
                   if (!is_resumed)
                     throw;
                   fs::remove_all(own, not_there);
-                  cases = take(sample, own);
+                  records = take(sample, own);
                 }
                 fs::remove_all(own, not_there);
-                return cases;
+                return records;
               }};
     }
   } // namespace

@@ -19,9 +19,7 @@ namespace plumbline::study
         check;
     /// @param own  where the sample alone may keep files while it is taken; gone when it is there
     /// @throws InputError, NumericalError  as the analysis itself
-    std::function<std::vector<SampleCase>(const scene::Scene &sample,
-                                          const std::filesystem::path &own)>
-        take;
+    std::function<Records(const scene::Scene &sample, const std::filesystem::path &own)> take;
   };
 
   SampleTaker sample_taker(const scene::Scene &scene, const Methods &available);

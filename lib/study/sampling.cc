@@ -13,17 +13,19 @@
 
 namespace plumbline::study
 {
+  using analysis::PointField;
+
   namespace
   {
     /// What Expected/sampling calls the share of a field's variance that its modes have.
     constexpr const char *const kept_of_modes = "variance kept";
 
     /// √(Σ area f²) of a field.
-    double l2(const SampleField &places, const std::function<double(std::size_t)> &value)
+    double l2(const PointField &places, const std::function<double(std::size_t)> &value)
     {
       double sum = 0;
-      for (std::size_t i = 0; i < places.area.size() * places.n_components; ++i)
-        sum += places.area[i / places.n_components] * value(i) * value(i);
+      for (std::size_t i = 0; i < places.areas.size() * places.n_components; ++i)
+        sum += places.areas[i / places.n_components] * value(i) * value(i);
       return std::sqrt(sum);
     }
 
@@ -38,22 +40,23 @@ namespace plumbline::study
 
     struct CaseSums
     {
-      SampleCase first;
+      Record first;
       std::vector<SetSums> sets;
       InterpolationError::Sums interpolation;
       // of the last set, see CaseStatistics
       std::vector<std::size_t> samples = {};
       std::map<std::string, std::vector<std::optional<double>>> values = {};
 
-      void add_row(std::size_t sample, const std::map<std::string, double> &quantities)
+      void add_row(std::size_t sample, const std::map<std::string, analysis::Scalar> &quantities)
       {
-        for (const auto &[name, value] : quantities) // which others may lack
+        for (const auto &[name, scalar] : quantities) // which others may lack
           values[name].resize(samples.size());
         samples.push_back(sample);
         for (auto &[name, known] : values)
         {
           const auto found = quantities.find(name);
-          known.push_back(found == quantities.end() ? std::nullopt : std::optional(found->second));
+          known.push_back(found == quantities.end() ? std::nullopt
+                                                    : std::optional(found->second.value));
         }
       }
     };
@@ -69,41 +72,45 @@ namespace plumbline::study
       return weights;
     }
 
-    /// @param sample  whose record it is
-    void add(std::size_t sample, const SampleRecord &record,
+    /// @param sample  whose records they are
+    void add(std::size_t sample, const Records &records,
              const std::vector<std::optional<double>> &weights,
              const InterpolationError &interpolation, std::vector<CaseSums> &cases)
     {
-      for (const SampleCase &one : record.cases)
+      for (const Record &one : records)
       {
+        const std::vector<double> &field = sampled_field(one).values;
         auto found = std::find_if(cases.begin(), cases.end(),
-                                  [&](const CaseSums &c) { return c.first.is_same(one); });
+                                  [&](const CaseSums &c) {
+                                    return c.first.key.is_same_series(one.key) &&
+                                           c.first.key.level == one.key.level;
+                                  });
         if (found == cases.end())
         {
           cases.push_back(
               {one, std::vector<SetSums>(weights.size()), InterpolationError::Sums(interpolation)});
           found = cases.end() - 1;
         }
-        if (!one.field.values.empty())
-          found->interpolation.add(sample, one.field.values);
+        if (!field.empty())
+          found->interpolation.add(sample, field);
         for (std::size_t s = 0; s < weights.size(); ++s)
         {
           if (!weights[s])
             continue;
           SetSums &set = found->sets[s];
           set.weights.push_back(*weights[s]);
-          set.seconds += one.seconds;
-          for (const auto &[name, value] : one.quantities)
-            set.values[name].push_back(value);
-          if (!one.field.values.empty())
-            set.field.add(one.field.values, *weights[s]);
+          set.seconds += one.cost.seconds();
+          for (const auto &[name, scalar] : one.scalars)
+            set.values[name].push_back(scalar.value);
+          if (!field.empty())
+            set.field.add(field, *weights[s]);
         }
         if (weights.back())
-          found->add_row(sample, one.quantities);
+          found->add_row(sample, one.scalars);
       }
     }
 
-    void conclude_field(const SetSums &sums, const SampleField &places, bool independent,
+    void conclude_field(const SetSums &sums, const PointField &places, bool independent,
                         const std::optional<ExactStatistics> &exact, SetStatistics &set,
                         std::vector<double> &mean, std::vector<double> &deviation)
     {
@@ -112,11 +119,11 @@ namespace plumbline::study
       deviation = sums.field.deviation(n_independent);
       const std::vector<double> variance = sums.field.variance(n_independent);
       double area = 0;
-      for (const double part : places.area)
+      for (const double part : places.areas)
         area += part;
       for (std::size_t i = 0; i < variance.size(); ++i)
         if (variance[i] < 0)
-          set.negative_part += places.area[i / places.n_components] / area / places.n_components;
+          set.negative_part += places.areas[i / places.n_components] / area / places.n_components;
       set.mean_size = l2(places, [&](std::size_t i) { return mean[i]; });
       const bool has_deviation = set.negative_part == 0;
       if (has_deviation)
@@ -174,7 +181,7 @@ namespace plumbline::study
     /// Of the last set at the finest level, at the places of another one; nothing where samples of
     /// it are missing.
     std::optional<ExactStatistics> own_statistics(const SamplingPlan &plan, const CaseSums &finest,
-                                                  const SampleField &places)
+                                                  const PointField &places)
     {
       const SetSums &sums = finest.sets.back();
       if (!says_something(plan.sets.back(), sums, plan.are_independent))
@@ -186,7 +193,7 @@ namespace plumbline::study
       const ExactStatistics own{sums.field.mean(), has_deviation
                                                        ? sums.field.deviation(n_independent)
                                                        : std::vector<double>()};
-      return at_places(own, finest.first.field, places);
+      return at_places(own, sampled_field(finest.first), places);
     }
 
     CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
@@ -197,12 +204,10 @@ namespace plumbline::study
       const bool is_finest = &sums == &finest,
                  is_own = scene.study.decisive_error.target == scene::Target::finest;
       CaseStatistics result;
-      result.of = sums.first;
+      result.of = sums.first.key;
       result.is_finest = is_finest;
       result.is_target_level = is_finest && is_own;
-      result.of.quantities.clear();
-      result.of.field = {};
-      const SampleField &places = sums.first.field;
+      const PointField &places = sampled_field(sums.first);
       std::optional<ExactStatistics> exact;
       try
       {
@@ -217,7 +222,7 @@ namespace plumbline::study
       if (!sums.sets.empty())
         for (const auto &[name, values] : sums.sets.back().values)
           if (const std::size_t n = sums.sets.back().weights.size(); values.size() < n)
-            findings.push_back(name + " of " + sums.first.method + " is there for " +
+            findings.push_back(name + " of " + result.of.method + " is there for " +
                                std::to_string(values.size()) + " of " + std::to_string(n) +
                                " samples, so that it has no statistics");
       for (std::size_t s = 0; s < plan.sets.size(); ++s)
@@ -258,19 +263,15 @@ namespace plumbline::study
     return uq::spectrum_of(*section.source->expansion());
   }
 
-  bool SampleCase::is_same_method(const SampleCase &other) const
+  const PointField &sampled_field(const Record &record)
   {
-    return method == other.method && problem == other.problem && series == other.series;
-  }
-
-  bool SampleCase::is_same(const SampleCase &other) const
-  {
-    return is_same_method(other) && level == other.level;
+    static const PointField none;
+    return record.fields.empty() ? none : record.fields.begin()->second;
   }
 
   SamplingResults
   conclude_samples(const scene::Scene &scene, const SamplingPlan &plan,
-                   const std::function<std::optional<SampleRecord>(std::size_t sample)> &read)
+                   const std::function<std::optional<Records>(std::size_t sample)> &read)
   {
     SamplingResults results;
     results.scene_name = scene.name;
@@ -302,20 +303,22 @@ namespace plumbline::study
     std::size_t n_read = 0;
     for (std::size_t i = 0; i < plan.values.size(); ++i)
     {
-      const std::optional<SampleRecord> record = read(i);
-      if (!record)
+      const std::optional<Records> records = read(i);
+      if (!records)
         continue;
       ++n_read;
-      if (!record->failure.empty())
-        results.failures.push_back({i, plan.values[i], record->failure});
-      add(i, *record, weights[i], interpolation, cases);
+      if (!records->empty() && !records->front().failure.empty())
+        results.failures.push_back({i, plan.values[i], records->front().failure});
+      else
+        add(i, *records, weights[i], interpolation, cases);
     }
     results.is_complete = n_read == plan.values.size();
     for (const CaseSums &one : cases)
     {
       const CaseSums *finest = &one;
       for (const CaseSums &other : cases)
-        if (other.first.is_same_method(one.first) && other.first.level > finest->first.level)
+        if (other.first.key.is_same_series(one.first.key) &&
+            other.first.key.level > finest->first.key.level)
           finest = &other;
       results.cases.push_back(
           conclude_case(scene, plan, one, *finest, interpolation, results.findings));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "study/study_results.h"
 #include "uq/spectrum.h"
 #include "uq/statistics.h"
 
@@ -37,34 +38,8 @@ namespace plumbline::study
   };
   SamplingPlan make_sampling_plan(const scene::Scene &scene);
 
-  /// A field of a sample at some places.
-  struct SampleField
-  {
-    std::vector<double> x, y, area; ///< of each place; area: of Ω that it stands for
-    unsigned int n_components = 1;
-    std::vector<double> values; ///< shape (n_places, n_components)
-  };
-
-  /// What a method, or a growth, makes of a sample at one level.
-  struct SampleCase
-  {
-    std::string method, problem, series;
-    unsigned int level = 0;
-    double h = 0, horizon = 0; ///< [length]
-    double seconds = 0;        ///< CPU time
-    std::map<std::string, double> quantities = {};
-    SampleField field = {};
-
-    bool is_same_method(const SampleCase &other) const; ///< at whatever level
-    bool is_same(const SampleCase &other) const;
-  };
-
-  struct SampleRecord
-  {
-    std::size_t sample = 0;
-    std::string failure; ///< empty, or why there is nothing
-    std::vector<SampleCase> cases;
-  };
+  /// The one field of a sample's record, see sample_study(); without values where it has none.
+  const analysis::PointField &sampled_field(const Record &record);
 
   /// Of a case over one set.
   struct SetStatistics
@@ -94,13 +69,13 @@ namespace plumbline::study
   /// Mean and deviation of the largest set's field, for pictures.
   struct FieldStatistics
   {
-    SampleField places;                  ///< without values
+    analysis::PointField places;         ///< without values
     std::vector<double> mean, deviation; ///< this is 0 where the variance is negative
   };
 
   struct CaseStatistics
   {
-    SampleCase of;          ///< its names; no values
+    Key of;
     bool is_finest = false; ///< level of its method
     /// Errors are against this level itself: they are of samples and modes alone.
     bool is_target_level = false;
@@ -159,11 +134,12 @@ namespace plumbline::study
     bool is_complete = false;
   };
 
-  /// @param read  the record of a sample, if there is one; each is asked for once, so that fields
-  /// of many samples need no memory
+  /// @param read  the records of a sample as sample_study() makes them, or one that tells why it
+  /// failed; nothing where it was not taken. Each is asked for once, so that fields of many samples
+  /// need no memory.
   SamplingResults
   conclude_samples(const scene::Scene &scene, const SamplingPlan &plan,
-                   const std::function<std::optional<SampleRecord>(std::size_t sample)> &read);
+                   const std::function<std::optional<Records>(std::size_t sample)> &read);
 
   /// What does not hold of Expected/sampling, where "variance kept" is that of the modes; one
   /// sentence each.

@@ -17,7 +17,7 @@ namespace plumbline::study
     }
 
     /// @param sets  with errors, few samples to many
-    SamplingBalance balance_of(const SampleCase &of, const std::vector<const SetStatistics *> &sets)
+    SamplingBalance balance_of(const Key &of, const std::vector<const SetStatistics *> &sets)
     {
       const SetStatistics &largest = *sets.back();
       SamplingBalance balance{of.method,       of.problem,    of.series,           of.h,

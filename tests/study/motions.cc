@@ -584,15 +584,17 @@ TEST(Motions, of_a_sample_are_told_apart_by_scheme_and_step)
                              {"Time/schemes", schemes},
                              {"Time/steps", steps}});
     std::vector<std::string> names;
-    for (const SampleCase &one :
+    for (const Record &one :
          sample_study(transient_analysis({}, {true, {}}), scene, meshfree::methods()))
     {
-      names.push_back(one.method);
-      EXPECT_EQ(one.field.values.size(), one.field.x.size());
-      EXPECT_GT(one.field.values.size(), 0u);
+      names.push_back(one.key.method);
+      const analysis::PointField &field = sampled_field(one);
+      EXPECT_EQ(field.values.size(), field.points.size());
+      EXPECT_EQ(field.areas.size(), field.points.size());
+      EXPECT_GT(field.values.size(), 0u);
       for (const std::string quantity : {"nodal L2 | exact", "bond energy", "kinetic energy"})
-        EXPECT_EQ(one.quantities.count(quantity), 1u) << quantity;
-      EXPECT_EQ(one.quantities.count("time steps"), 0u);
+        EXPECT_EQ(one.scalars.count(quantity), 1u) << quantity;
+      EXPECT_EQ(one.scalars.count("time steps"), 0u);
     }
     return names;
   };

@@ -170,11 +170,10 @@ TEST(RunStudy, gives_samples_the_scalars_that_they_count)
 {
   const auto cases = sample_study(row_sums(), make_scene(), available());
   ASSERT_EQ(cases.size(), 12u);
-  EXPECT_EQ(cases[7].method, "PA-AC");
-  EXPECT_EQ(cases[7].level, 1u);
-  EXPECT_EQ(cases[7].quantities.size(), 1u);
-  EXPECT_EQ(cases[7].quantities.at("largest row sum"),
-            run(make_scene()).records[7]["largest row sum"]);
+  EXPECT_EQ(cases[7].key.method, "PA-AC");
+  EXPECT_EQ(cases[7].key.level, 1u);
+  EXPECT_EQ(cases[7].scalars.size(), 1u);
+  EXPECT_EQ(cases[7]["largest row sum"], run(make_scene()).records[7]["largest row sum"]);
 }
 
 TEST(RunStudy, has_tables_charts_a_page_and_a_file_without_code_of_its_own)

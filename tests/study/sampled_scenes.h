@@ -2,14 +2,16 @@
 
 #include "study/sampling.h"
 
+#include <cmath>
+
 /// Records of samples that are exact, and scenes that ask for them.
 namespace sampled_scenes
 {
   using namespace plumbline;
   using study::CaseStatistics;
   using study::make_sampling_plan;
-  using study::SampleCase;
-  using study::SampleRecord;
+  using study::Record;
+  using study::Records;
   using study::SamplingPlan;
   using study::SamplingResults;
   using study::SetStatistics;
@@ -31,25 +33,52 @@ namespace sampled_scenes
 
   /// A sample whose field at four places is the exact one, and whose quantity is a given function
   /// of the variables.
-  inline SampleRecord
-  exact_record(const SamplingPlan &plan, std::size_t sample,
-               const std::function<double(const std::vector<double> &)> &quantity)
+  inline Records exact_record(const SamplingPlan &plan, std::size_t sample,
+                              const std::function<double(const std::vector<double> &)> &quantity)
   {
     const std::vector<double> &values = plan.values[sample];
-    SampleCase one;
-    one.method = "PA-AC";
-    one.problem = "u";
-    one.series = "m = 3";
-    one.h = .25;
-    one.horizon = .75;
-    one.seconds = 1;
-    one.quantities["q"] = quantity(values);
-    one.field.x = {.1, .4, .6, .9};
-    one.field.y = {.1, .1, .9, .9};
-    one.field.area.assign(4, .25);
-    for (const double x : one.field.x)
-      one.field.values.push_back((1 + values[0]) * x);
-    return {sample, "", {one}};
+    Record one;
+    one.key.method = "PA-AC";
+    one.key.problem = "u";
+    one.key.series = "m = 3";
+    one.key.h = .25;
+    one.key.horizon = .75;
+    one.cost.solve_seconds = 1;
+    one.set("q", quantity(values));
+    analysis::PointField &field = one.fields["u"];
+    field.points = {{.1, .1}, {.4, .1}, {.6, .9}, {.9, .9}};
+    field.areas.assign(4, .25);
+    for (const auto &point : field.points)
+      field.values.push_back((1 + values[0]) * point[0]);
+    return {one};
+  }
+
+  /// Of a method at one of two levels, a field of the averages over squares of the unit square.
+  /// @param value  at their centres
+  inline Record averages_record(unsigned int level,
+                                const std::function<double(const dealii::Point<2> &)> &value)
+  {
+    const int n = level == 0 ? 2 : 4;
+    Record one;
+    one.key.method = "PA-AC";
+    one.key.series = "m = 3";
+    one.key.level = level;
+    one.key.h = 1. / n;
+    analysis::PointField &field = one.fields["u"];
+    for (int i = 0; i < n * n; ++i)
+    {
+      field.points.emplace_back((i % n + .5) / n, (std::floor(i / n) + .5) / n);
+      field.areas.push_back(one.key.h * one.key.h);
+      field.values.push_back(value(field.points.back()));
+    }
+    return one;
+  }
+
+  inline Records failed_record(const std::string &reason)
+  {
+    Record failed;
+    failed.failure = reason;
+    return {failed};
   }
 
   inline double first(const std::vector<double> &values)

@@ -73,8 +73,8 @@ TEST(SampleStatistics, ThatWereMovedShowIt)
       conclude_samples(scene, plan,
                        [&](std::size_t i)
                        {
-                         SampleRecord record = exact_record(plan, i, first);
-                         for (double &value : record.cases[0].field.values)
+                         Records record = exact_record(plan, i, first);
+                         for (double &value : record[0].fields["u"].values)
                            value += .02;
                          return record;
                        });
@@ -96,13 +96,13 @@ TEST(SampleStatistics, CheapestPairStaysBelowItsTarget)
     return conclude_samples(scene, plan,
                             [&](std::size_t i)
                             {
-                              SampleRecord record = exact_record(plan, i, first);
-                              record.cases.push_back(record.cases[0]);
-                              SampleCase &fine = record.cases[1];
-                              fine.level = 1;
-                              fine.h = .125;
-                              fine.seconds = seconds_of_fine;
-                              for (double &value : fine.field.values)
+                              Records record = exact_record(plan, i, first);
+                              record.push_back(record[0]);
+                              Record &fine = record[1];
+                              fine.key.level = 1;
+                              fine.key.h = .125;
+                              fine.cost.solve_seconds = seconds_of_fine;
+                              for (double &value : fine.fields["u"].values)
                                 value += error_of_fine;
                               return record;
                             })
@@ -127,8 +127,8 @@ TEST(SampleStatistics, ThatAnAxisIsNoChanceAdviseNothing)
     return conclude_samples(scene, plan,
                             [&](std::size_t i)
                             {
-                              SampleRecord record = exact_record(plan, i, first);
-                              for (double &value : record.cases[0].field.values)
+                              Records record = exact_record(plan, i, first);
+                              for (double &value : record[0].fields["u"].values)
                                 value += .02;
                               return record;
                             });
@@ -158,34 +158,26 @@ TEST(SampleStatistics, WithoutATargetAreHeldAgainstTheLastSetOfTheFinestLevel)
   const SamplingPlan plan = make_sampling_plan(scene);
   constexpr double of_h = 2e-3;
   const std::array<double, 3> part = {.5, .05, -.05};
-  const SamplingResults results =
-      conclude_samples(scene, plan,
-                       [&](std::size_t sample)
-                       {
-                         SampleRecord record{sample, "", {}};
-                         for (const unsigned int level : {0u, 1u})
-                         {
-                           SampleCase one;
-                           one.method = "PA-AC";
-                           one.series = "m = 3";
-                           one.level = level;
-                           one.h = level == 0 ? .5 : .25;
-                           one.seconds = level == 0 ? 1 : .5;
-                           const int n = level == 0 ? 2 : 4;
-                           for (int i = 0; i < n * n; ++i)
-                           {
-                             one.field.x.push_back((i % n + .5) * one.h);
-                             one.field.y.push_back((std::floor(i / n) + .5) * one.h);
-                             one.field.area.push_back(one.h * one.h);
-                             double value = one.field.x.back() + (level == 0 ? of_h : 0);
-                             for (std::size_t d = 0; d < 3; ++d)
-                               value += part[d] * plan.values[sample][d] * plan.values[sample][d];
-                             one.field.values.push_back(value);
-                           }
-                           record.cases.push_back(one);
-                         }
-                         return record;
-                       });
+  const SamplingResults results = conclude_samples(
+      scene, plan,
+      [&](std::size_t sample)
+      {
+        Records records;
+        for (const unsigned int level : {0u, 1u})
+        {
+          records.push_back(averages_record(level,
+                                            [&](const auto &point)
+                                            {
+                                              double value = point[0] + (level == 0 ? of_h : 0);
+                                              for (std::size_t d = 0; d < 3; ++d)
+                                                value += part[d] * plan.values[sample][d] *
+                                                         plan.values[sample][d];
+                                              return value;
+                                            }));
+          records.back().cost.solve_seconds = level == 0 ? 1 : .5;
+        }
+        return records;
+      });
   // one point sees no square, two see all of it: E ξ² = 1
   ASSERT_EQ(results.cases.size(), 2);
   const double all = .5;
@@ -227,13 +219,14 @@ TEST(SampleStatistics, OfMotionsAreHeldAgainstThoseAtTheFinalTime)
                                            {"Study/norms", "nodal L2"},
                                            {"Study/decisive error", "nodal L2 | exact"}});
   const SamplingPlan plan = make_sampling_plan(scene);
-  SampleCase one = exact_record(plan, 0, first).cases[0];
-  one.problem = scene.problem.case_names().front();
+  Record one = exact_record(plan, 0, first)[0];
+  one.key.problem = scene.problem.case_names().front();
   const auto exact = study::exact_statistics(scene, one);
   ASSERT_TRUE(exact);
-  for (std::size_t i = 0; i < one.field.x.size(); ++i)
+  const auto &points = one.fields["u"].points;
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const double x = one.field.x[i], mean = std::sin(x - 6) * std::exp(-.5),
+    const double x = points[i][0], mean = std::sin(x - 6) * std::exp(-.5),
                  square = .5 * (1 - std::cos(2 * (x - 6)) * std::exp(-2.));
     EXPECT_NEAR(exact->mean[i], mean, 1e-12);
     EXPECT_NEAR(exact->deviation[i], std::sqrt(square - mean * mean), 1e-12);
@@ -247,10 +240,9 @@ TEST(SampleStatistics, OfAQuantityThatIsPartlyThereAreNoneAndThatIsSaid)
   const SamplingResults results = conclude_samples(scene, plan,
                                                    [&](std::size_t i)
                                                    {
-                                                     SampleRecord record =
-                                                         exact_record(plan, i, first);
+                                                     Records record = exact_record(plan, i, first);
                                                      if (i != 2)
-                                                       record.cases[0].quantities["K"] = 1;
+                                                       record[0].set("K", 1);
                                                      return record;
                                                    });
   EXPECT_EQ(results.cases[0].sets[1].quantities.count("K"), 0);
@@ -277,9 +269,8 @@ TEST(SampleStatistics, OfRulesSayNothingWithoutAPoint)
   const SamplingPlan plan = make_sampling_plan(scene);
   const SamplingResults results = conclude_samples(
       scene, plan,
-      [&](std::size_t i) {
-        return i == 2 ? SampleRecord{2, "it was too much", {}} : exact_record(plan, i, first);
-      });
+      [&](std::size_t i)
+      { return i == 2 ? failed_record("it was too much") : exact_record(plan, i, first); });
   EXPECT_TRUE(results.is_complete);
   ASSERT_EQ(results.failures.size(), 1);
   EXPECT_EQ(results.failures[0].sample, 2);
@@ -295,11 +286,9 @@ TEST(SampleStatistics, OfIndependentSamplesDoWithoutOne)
   const scene::Scene scene =
       random_scene({{"Sampling/rule", "Monte Carlo"}, {"Sampling/counts", "4"}});
   const SamplingPlan plan = make_sampling_plan(scene);
-  const SamplingResults results =
-      conclude_samples(scene, plan,
-                       [&](std::size_t i) {
-                         return i == 2 ? SampleRecord{2, "no", {}} : exact_record(plan, i, first);
-                       });
+  const SamplingResults results = conclude_samples(
+      scene, plan,
+      [&](std::size_t i) { return i == 2 ? failed_record("no") : exact_record(plan, i, first); });
   const double mean = (plan.values[0][0] + plan.values[1][0] + plan.values[3][0]) / 3;
   const SetStatistics &set = results.cases[0].sets[0];
   EXPECT_EQ(set.n_missing, 1);
@@ -334,7 +323,7 @@ TEST(SampleStatistics, ThatAreNotThereLeaveResultsIncomplete)
   const scene::Scene scene = random_scene({});
   const SamplingPlan plan = make_sampling_plan(scene);
   const SamplingResults results = conclude_samples(scene, plan,
-                                                   [&](std::size_t i) -> std::optional<SampleRecord>
+                                                   [&](std::size_t i) -> std::optional<Records>
                                                    {
                                                      if (i > 0)
                                                        return {};
@@ -357,9 +346,10 @@ TEST(SampleStatistics, HaveTheErrorOfTheInterpolant)
     const SamplingPlan plan = make_sampling_plan(scene);
     const auto record = [&](std::size_t i)
     {
-      SampleRecord made = exact_record(plan, i, first);
-      for (std::size_t p = 0; p < made.cases[0].field.x.size(); ++p)
-        made.cases[0].field.values[p] = std::exp(plan.values[i][0]) * made.cases[0].field.x[p];
+      Records made = exact_record(plan, i, first);
+      analysis::PointField &field = made[0].fields["u"];
+      for (std::size_t p = 0; p < field.points.size(); ++p)
+        field.values[p] = std::exp(plan.values[i][0]) * field.points[p][0];
       return made;
     };
     const auto &sets = study::conclude_samples(scene, plan, record).cases.at(0).sets;
@@ -384,11 +374,8 @@ TEST(SampleStatistics, HaveTheErrorOfTheInterpolant)
         study::sampled_quantity({{}, true, false, {sets[0]}, {}, {}, {}}, "Lebesgue constant"),
         sets[0].lebesgue);
     // one sample that is missing takes from each set that needs it what it says
-    const auto without_first =
-        study::conclude_samples(scene, plan,
-                                [&](std::size_t i) {
-                                  return i == 0 ? SampleRecord{0, "failed", {}} : record(i);
-                                });
+    const auto without_first = study::conclude_samples(
+        scene, plan, [&](std::size_t i) { return i == 0 ? failed_record("failed") : record(i); });
     EXPECT_FALSE(without_first.cases.at(0).sets[0].interpolation_error);
   }
   const auto normal = random_scene({{"Sampling/counts", "1, 2, 3"}});

@@ -66,25 +66,9 @@ TEST(SampleStatistics, NegativeVariancesOfFieldsHaveNoDeviationAndNoErrorOfIt)
       double sum = 0;
       for (const double one : plan.values[sample])
         sum += one * one;
-      SampleRecord record{sample, "", {}};
-      for (const unsigned int level : {0u, 1u})
-      {
-        SampleCase one;
-        one.method = "PA-AC";
-        one.series = "m = 3";
-        one.level = level;
-        one.h = level == 0 ? .5 : .25;
-        const int n = level == 0 ? 2 : 4;
-        for (int i = 0; i < n * n; ++i)
-        {
-          one.field.x.push_back((i % n + .5) * one.h);
-          one.field.y.push_back((std::floor(i / n) + .5) * one.h);
-          one.field.area.push_back(one.h * one.h);
-          one.field.values.push_back(one.field.x.back() < .5 ? sum : 3); // constant on the right
-        }
-        record.cases.push_back(one);
-      }
-      return record;
+      const auto value = [&](const auto &point)
+      { return point[0] < .5 ? sum : 3; }; // constant on the right
+      return Records{averages_record(0, value), averages_record(1, value)};
     };
     return conclude_samples(scene, plan, record_of);
   };
