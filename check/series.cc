@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace plumbline::check
 {
@@ -59,30 +58,44 @@ namespace plumbline::check
       return scene;
     }
 
-    study::StudyResults conclude(const scene::Scene &scene, const std::vector<Findings> &levels)
+    /// Stands in the loop over levels for the weights of the files, which find() solves by.
+    class GivenWeights : public method::Method
     {
-      study::StudyResults results;
+    public:
+      std::string name() const override { return "given weights"; }
+      method::MethodFamily family() const override { return method::MethodFamily::meshfree; }
+      std::string help() const override { return "weights of files"; }
+      std::unique_ptr<method::Discretisation> discretise(const problem::Problem<2> &,
+                                                         const base::Communicator &) const override
+      {
+        throw NumericalError("weights of files are those of a level");
+      }
+    };
+
+    study::Records records_of(const Findings &found, const study::Place &place)
+    {
+      study::Records records;
+      for (const CaseCheck &one : found.cases)
+        for (study::Record record : {one.weights, one.reference})
+        {
+          record.key.analysis = "statics";
+          record.key.level = place.number();
+          records.push_back(std::move(record));
+        }
+      return records;
+    }
+
+    void conclude(const scene::Scene &scene, study::StudyResults &results)
+    {
       results.analysis = "statics";
-      results.scene_name = scene.name;
-      results.purpose = scene.purpose;
-      results.scene_text = scene.text;
-      results.regime = scene.study.regime;
-      results.decisive_error = scene.study.decisive_error.text();
-      for (std::size_t k = 0; k < levels.size(); ++k)
-        for (const CaseCheck &one : levels[k].cases)
-          for (study::Record record : {one.weights, one.reference})
-          {
-            record.key.analysis = results.analysis;
-            record.key.level = static_cast<unsigned int>(k);
-            // the time of this program's solver, not of the code that made the weights
-            record.cost.setup_seconds = record.cost.solve_seconds = 0;
-            record.cost.peak_bytes = 0;
-            results.records.push_back(std::move(record));
-          }
+      for (study::Record &record : results.records)
+      {
+        // the time of this program's solver, not of the code that made the weights
+        record.cost.setup_seconds = record.cost.solve_seconds = 0;
+        record.cost.peak_bytes = 0;
+      }
       study::conclude(scene, results);
       results.advice.clear(); // on costs
-      results.expectations.clear();
-      return results;
     }
 
     /// Of the weights, by the error that decides.
@@ -179,21 +192,22 @@ namespace plumbline::check
   }
 
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const std::function<void(const std::string &, double)> &on_level)
+                     const study::RunControl &control)
   {
-    double all = 0, done = 0; // by the number of cells
-    for (const problem::Level &level : files.levels)
-      all += std::pow(level.h, -2);
     Series found;
-    for (std::size_t k = 0; k < files.levels.size(); ++k)
+    study::Analysis analysis{"check", "Weights of files"};
+    analysis.has_decisive_error = true;
+    analysis.begin = [&](const study::Place &place) // its errors end the study
     {
-      on_level("level " + std::to_string(k + 1) + " of " + std::to_string(files.levels.size()),
-               done / all);
-      found.levels.push_back(
-          find(at_level_alone(files.scene, files.levels[k]), files.inputs[k], references));
-      done += std::pow(files.levels[k].h, -2);
-    }
-    found.results = conclude(files.scene, found.levels);
+      found.levels.push_back(find(at_level_alone(files.scene, place.level()),
+                                  files.inputs[place.number()], references));
+    };
+    analysis.analyse = [&](const study::Place &place, const method::Method &)
+    { return records_of(found.levels.back(), place); };
+    analysis.conclude = conclude;
+    found.results =
+        run_study(analysis, files.scene, {std::make_shared<const GivenWeights>()}, control);
+    found.results.expectations.clear();
     found.trends = trends_of(found.results);
     found.assumed = assumptions(files.scene, files.inputs.front(), files.levels.front());
     return found;

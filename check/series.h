@@ -1,10 +1,9 @@
 #pragma once
 
 #include "check/requirements.h"
-#include "study/study_results.h"
+#include "study/analysis.h"
 
 #include <filesystem>
-#include <functional>
 
 namespace plumbline::check
 {
@@ -34,10 +33,10 @@ namespace plumbline::check
     std::string assumed;              ///< see assumptions()
   };
 
+  /// The study of these levels by find(), one after the other; those before an interrupt.
   /// @param references  as of find(), whose errors it throws
-  /// @param on_level    told of each level, with the share of the work that is done
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const std::function<void(const std::string &, double)> &on_level);
+                     const study::RunControl &control);
 
   /// Of all levels, and 'required ac' where the errors stall.
   std::vector<std::string> complaints(const Series &found, const Requirements &required);

@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 namespace plumbline::driver
 {
@@ -100,7 +101,8 @@ namespace plumbline::driver
         throw InputError(given + " is for the files of one level; give names without {h}");
     }
     /// Print what is wanted on standard output, and write files where they are.
-    void show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
+    /// @return  whether there are files
+    bool show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
               const std::function<std::string()> &json, const std::function<std::string()> &text,
               const std::function<void()> &write)
     {
@@ -111,35 +113,44 @@ namespace plumbline::driver
         std::cout << text();
       const bool has_files = !scene.domain.is_in_space() && !is_silent;
       if (!has_files && options.output.empty())
-        return;
+        return false;
       const io::OutputFolder output(folder, {"check", scene.name, scene.text, note},
                                     base::Communicator::alone());
       write();
       if (options.pdf)
         report::draw_pdf(folder);
+      return true;
     }
 
     int show_series(const scene::Scene &scene, const CheckOptions &options,
                     const check::Requirements &required, const fs::path &folder)
     {
-      const bool is_first = base::Communicator::all().rank() == 0;
+      const base::Communicator ranks = base::Communicator::all();
+      const bool is_first = ranks.rank() == 0;
       const check::LevelFiles files = check::find_level_files(scene, options);
       if (!files.missing.empty() && is_first)
         std::cerr << "warning: levels without files are left out: there is no " << files.missing
                   << '\n';
-      check::Series found;
-      {
-        base::ProgressLine progress(!options.quiet && is_first);
-        found = check::find_series(files, reference::methods(),
-                                   [&](const std::string &what, double fraction)
-                                   { progress.show(what, fraction); });
-      }
-      found.results.provenance = provenance();
-      if (is_first)
-        show(
-            scene, options, folder, [&] { return check::to_json(found, files, required); },
-            [&] { return check::text(found, required, (folder / "report.html").string()); },
-            [&] { check::write_series(found, files, required, folder); });
+      watch_interrupts();
+      std::optional<base::ProgressLine> progress(!options.quiet && is_first);
+      study::RunControl control;
+      control.ranks = ranks;
+      control.earlier.provenance = provenance();
+      control.should_stop = [&] { return ranks.any(is_interrupted()); };
+      control.on_progress = [&](const std::string &what, double fraction)
+      { progress->show(what, fraction); };
+      const check::Series found = check::find_series(files, reference::methods(), control);
+      progress.reset();
+      const bool is_written =
+          is_first &&
+          show(
+              scene, options, folder, [&] { return check::to_json(found, files, required); },
+              [&] { return check::text(found, required, (folder / "report.html").string()); },
+              [&] { check::write_series(found, files, required, folder); });
+      if (is_written && !found.results.is_complete)
+        say_interrupted(folder, false);
+      if (!found.results.is_complete)
+        return 130;
       return check::complaints(found, required).empty() ? 0 : 1;
     }
 

@@ -40,10 +40,7 @@ namespace plumbline::driver
       if (!options.model.empty())
         options.overrides.push_back({"Solver/model", options.model});
       scene::Scene scene = read_scene(options);
-      if (scene.fracture.is_there())
-        throw InputError("scene '" + scene.name +
-                         "': only 'plumbline grow' uses Fracture/toughness; run "
-                         "that command, or clear the key");
+      refuse_growth(scene);
       return scene;
     }
 
@@ -217,6 +214,14 @@ namespace plumbline::driver
       return analyse([&](const study::Checkpoints &) { return task; }, options, scene);
     }
   } // namespace
+
+  void refuse_growth(const scene::Scene &scene)
+  {
+    if (scene.fracture.is_there())
+      throw InputError("scene '" + scene.name +
+                       "': only 'plumbline grow' uses Fracture/toughness; run that analysis, or "
+                       "clear the key");
+  }
 
   int run(const RunOptions &options)
   {

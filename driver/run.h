@@ -10,6 +10,9 @@ namespace plumbline::driver
     bool is_estimate = false; ///< print the memory it would take, and run nothing
   };
 
+  /// @throws InputError  the scene is one of quasi-static fracture
+  void refuse_growth(const scene::Scene &scene);
+
   /// Run a scene, write its report, print the verdicts.
   /// With is_estimate nothing is run; the memory that it is expected to take is printed.
   /// @return exit code: 0, 1 (an expectation does not hold, with check), 3 (a method fails that the

@@ -2,6 +2,7 @@
 #include "driver/analyse.h"
 #include "driver/certify.h"
 #include "driver/methods.h"
+#include "driver/run.h"
 #include "io/certificate_json.h"
 #include "io/results_json.h"
 #include "reading.h"
@@ -53,10 +54,7 @@ namespace plumbline::python
     /// What `plumbline run` does of a scene.
     study::Analysis static_or_in_time(const scene::Scene &scene, const method::Methods &available)
     {
-      if (scene.fracture.is_there())
-        throw InputError("scene '" + scene.name +
-                         "': Fracture/toughness is for plumbline.grow, which breaks bonds; clear "
-                         "it");
+      driver::refuse_growth(scene);
       return scene.time.is_dynamic() ? study::transient_analysis(available, {})
                                      : study::statics_analysis(available);
     }

@@ -95,26 +95,36 @@ TEST_F(CheckSeries, gives_rates_and_the_verdict_of_compatible_weights)
 }
 
 // the bonds of the first level come late
-TEST_F(CheckSeries, tells_the_level_that_takes_longer_than_a_second)
+TEST_F(CheckSeries,
+       tells_the_level_that_takes_longer_than_a_second_and_ends_after_it_if_interrupted)
 {
   for (const double h : {.125, .0625})
     write_level("FA", h);
-  const fs::path bonds = folder_ / "bonds_0.125.csv", err = folder_ / "err";
+  const fs::path bonds = folder_ / "bonds_0.125.csv", err = folder_ / "err", out = folder_ / "out";
   const std::string rows = read(bonds);
   fs::remove(bonds);
   ASSERT_EQ(mkfifo(bonds.c_str(), 0600), 0);
   const std::string base = folder_.string();
-  const pid_t child = start("check " + base + "/nodes_{h}.csv " + base + "/bonds_{h}.csv --scene " +
-                                scene_file + " --json",
-                            err.string());
-  std::ofstream pipe(bonds);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  pipe << rows;
-  pipe.close();
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  expect_found(read(err), "  0 %  level 1 of 2, ");
+  for (const bool is_interrupted : {false, true})
+  {
+    const pid_t child = start("check " + base + "/nodes_{h}.csv " + base +
+                                  "/bonds_{h}.csv --scene " + scene_file + " -o " + out.string(),
+                              err.string());
+    std::ofstream pipe(bonds);
+    std::this_thread::sleep_for(std::chrono::milliseconds(is_interrupted ? 0 : 1500));
+    if (is_interrupted)
+      kill(child, SIGINT);
+    pipe << rows;
+    pipe.close();
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), is_interrupted ? 130 : 1) << read(err);
+    expect_found(read(err), is_interrupted ? "starts again from the beginning"
+                                           : "  0 %  check, m = 3, h = 0.125: problem, ");
+    const auto json = read_json(out / "check.json");
+    EXPECT_EQ(json["levels"].size(), is_interrupted ? 1u : 2u);
+    EXPECT_EQ(json["study"]["is_complete"], !is_interrupted);
+  }
 }
 
 TEST_F(CheckSeries, says_that_errors_stall)

@@ -3,6 +3,7 @@
 #include "reference/lattice/field.h"
 #include "reference/lattice/stencil.h"
 #include "scene/problem.h"
+#include "tests/reference/stencil_moment.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -28,17 +29,6 @@ namespace
   Kernel<2> tensor_kernel(double delta = horizon)
   {
     return Kernel<2>::with_bulk_modulus(physics::kernel_type("bond-tensor").profile, delta, 1);
-  }
-
-  /// Σ_k A_st(k) k1^a k2^b for one family.
-  double stencil_moment(const algebra::Stencil &stencil, unsigned int s, unsigned int t, int a,
-                        int b)
-  {
-    double sum = 0;
-    for (int k2 = -stencil.reach(); k2 <= stencil.reach(); ++k2)
-      for (int k1 = -stencil.reach(); k1 <= stencil.reach(); ++k1)
-        sum += stencil(s, t, k1, k2) * std::pow(k1, a) * std::pow(k2, b);
-    return sum;
   }
 
   scene::Scene make_scene(const std::string &kernel, const std::string &solution,
