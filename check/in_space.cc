@@ -105,40 +105,34 @@ namespace plumbline::check
       return lines;
     }
 
-    study::StudyResults results_of(const scene::Scene &scene, const FindingsInSpace &found,
-                                   const WeightsInSpace &given, const problem::Level &level,
-                                   const std::vector<std::string> &complaints)
-    {
-      analysis::Record record;
-      record.key.analysis = "check";
-      record.key.method = found.rule.empty() ? "given weights" : found.rule;
-      record.key.h = level.h;
-      record.key.horizon = level.horizon;
-      record.set("nodes", static_cast<double>(given.free.size()));
-      record.set("bonds", static_cast<double>(found.n_bonds));
-      record.set("negative weights", static_cast<double>(found.n_negative));
-      record.set("bonds without partner", static_cast<double>(found.n_unpaired));
-      record.set("first moment defect", found.first.value);
-      record.set("second moment defect", found.second.value);
-      record.set("median moment defect", found.typical);
-      record.set("imbalance of pairs", found.imbalance);
-      if (!found.rule.empty())
-        record.set("factor of the rule", found.rule_factor);
-      for (const meshfree::ElasticRange &one : found.elastic)
-      {
-        record.set("least " + one.name, one.least);
-        record.set("median " + one.name, one.median);
-        record.set("largest " + one.name, one.largest);
-      }
-      record.notes = complaints;
-      study::StudyResults results;
-      results.analysis = "check";
-      results.scene_name = scene.name;
-      results.purpose = scene.purpose;
-      results.records = {record};
-      return results;
-    }
   } // namespace
+
+  study::Record record_of(const InSpace &found)
+  {
+    study::Record record;
+    record.key.analysis = "check";
+    record.key.method = found.rule.empty() ? "given weights" : found.rule;
+    record.key.h = found.level.h;
+    record.key.horizon = found.level.horizon;
+    record.set("nodes", static_cast<double>(found.given.free.size()));
+    record.set("bonds", static_cast<double>(found.n_bonds));
+    record.set("negative weights", static_cast<double>(found.n_negative));
+    record.set("bonds without partner", static_cast<double>(found.n_unpaired));
+    record.set("first moment defect", found.first.value);
+    record.set("second moment defect", found.second.value);
+    record.set("median moment defect", found.typical);
+    record.set("imbalance of pairs", found.imbalance);
+    if (!found.rule.empty())
+      record.set("factor of the rule", found.rule_factor);
+    for (const meshfree::ElasticRange &one : found.elastic)
+    {
+      record.set("least " + one.name, one.least);
+      record.set("median " + one.name, one.median);
+      record.set("largest " + one.name, one.largest);
+    }
+    record.notes = found.complaints;
+    return record;
+  }
 
   InSpace find_in_space(const scene::Scene &scene, const Input &input, const Requirements &required)
   {
@@ -167,6 +161,9 @@ namespace plumbline::check
     return found;
   }
 
+  const char *const not_checked_in_space =
+      "not checked in three dimensions: Voronoi cells, matrix, solutions; no maps are drawn\n";
+
   std::string text(const InSpace &found)
   {
     std::string body;
@@ -175,8 +172,7 @@ namespace plumbline::check
       lines.push_back(found.assumed);
     for (const std::string &line : lines)
       body += report::wrapped(line, report::summary_columns, 2) + '\n';
-    body +=
-        "not checked in three dimensions: Voronoi cells, matrix, solutions; no maps are drawn\n";
+    body += not_checked_in_space;
     return check_summary(body, found.complaints,
                          found.complaints.empty() ? "as required" : "NOT as required",
                          "in check.json (-o FOLDER)");
@@ -184,6 +180,11 @@ namespace plumbline::check
 
   std::string to_json(const InSpace &found, const scene::Scene &scene)
   {
-    return io::to_json(results_of(scene, found, found.given, found.level, found.complaints));
+    study::StudyResults results;
+    results.analysis = "check";
+    results.scene_name = scene.name;
+    results.purpose = scene.purpose;
+    results.records = {record_of(found)};
+    return io::to_json(results);
   }
 } // namespace plumbline::check

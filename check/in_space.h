@@ -20,8 +20,13 @@ namespace plumbline::check
   InSpace find_in_space(const scene::Scene &scene, const Input &input,
                         const Requirements &required);
 
+  /// What programs are told of it.
+  study::Record record_of(const InSpace &found);
+
   /// For people; the answer last.
   std::string text(const InSpace &found);
+
+  extern const char *const not_checked_in_space; ///< a sentence for the end of texts
 
   /// For programs, as lib/io/results.schema.json describes it.
   std::string to_json(const InSpace &found, const scene::Scene &scene);

@@ -72,14 +72,13 @@ namespace plumbline::check
       }
     };
 
-    study::Records records_of(const Findings &found, const study::Place &place)
+    study::Records records_of(const Findings &found)
     {
       study::Records records;
       for (const CaseCheck &one : found.cases)
         for (study::Record record : {one.weights, one.reference})
         {
           record.key.analysis = "statics";
-          record.key.level = place.number();
           records.push_back(std::move(record));
         }
       return records;
@@ -87,13 +86,15 @@ namespace plumbline::check
 
     void conclude(const scene::Scene &scene, study::StudyResults &results)
     {
-      results.analysis = "statics";
       for (study::Record &record : results.records)
       {
         // the time of this program's solver, not of the code that made the weights
         record.cost.setup_seconds = record.cost.solve_seconds = 0;
         record.cost.peak_bytes = 0;
       }
+      if (scene.domain.is_in_space())
+        return;
+      results.analysis = "statics";
       study::conclude(scene, results);
       results.advice.clear(); // on costs
     }
@@ -108,24 +109,33 @@ namespace plumbline::check
       return trends;
     }
 
-    Table table_of(const std::vector<Findings> &levels, const std::vector<study::Trend> &trends)
+    std::vector<report::Cell> cells_of(const problem::Level &level, std::size_t n_bonds,
+                                       double first, double second, double median,
+                                       const std::string &rule)
     {
+      return {report::number_cell(level.h), report::number_cell(level.horizon),
+              report::count_cell(n_bonds),  report::error_cell(first),
+              report::error_cell(second),   report::error_cell(median),
+              report::text_cell(rule)};
+    }
+
+    Table table_of(const Series &all)
+    {
+      const std::vector<study::Trend> &trends = all.trends;
       Table table;
       table.columns = {"h",      "horizon", "bonds", "first moments", "second moments",
                        "median", "rule"};
       for (const study::Trend &trend : trends)
         for (const char *const what : {"error of ", "rate of "})
           table.columns.emplace_back(what + trend.problem);
-      for (std::size_t k = 0; k < levels.size(); ++k)
+      for (const InSpace &found : all.levels_in_space)
+        table.rows.push_back(cells_of(found.level, found.n_bonds, found.first.value,
+                                      found.second.value, found.typical, found.rule));
+      for (const Findings &found : all.levels)
       {
-        const Findings &found = levels[k];
-        table.rows.push_back({report::number_cell(found.level.level.h),
-                              report::number_cell(found.level.level.horizon),
-                              report::count_cell(found.weights.n_bonds),
-                              report::error_cell(found.moments.defects[0].worst.value),
-                              report::error_cell(found.moments.second.value),
-                              report::error_cell(found.moments.defects[1].median),
-                              report::text_cell(found.rule)});
+        table.rows.push_back(
+            cells_of(found.level.level, found.weights.n_bonds, found.moments.defects[0].worst.value,
+                     found.moments.second.value, found.moments.defects[1].median, found.rule));
         for (const study::Trend &trend : trends)
         {
           const auto place =
@@ -192,18 +202,28 @@ namespace plumbline::check
   }
 
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const study::RunControl &control)
+                     const Requirements &required, const study::RunControl &control)
   {
     Series found;
+    study::Records made; // of the present level
     study::Analysis analysis{"check", "Weights of files"};
-    analysis.has_decisive_error = true;
+    analysis.has_decisive_error = !files.scene.domain.is_in_space();
     analysis.begin = [&](const study::Place &place) // its errors end the study
     {
-      found.levels.push_back(find(at_level_alone(files.scene, place.level()),
-                                  files.inputs[place.number()], references));
+      const scene::Scene scene = at_level_alone(files.scene, place.level());
+      const Input &input = files.inputs[place.number()];
+      if (scene.domain.is_in_space())
+        made = {
+            record_of(found.levels_in_space.emplace_back(find_in_space(scene, input, required)))};
+      else
+        made = records_of(found.levels.emplace_back(find(scene, input, references)));
+      for (study::Record &record : made)
+      {
+        record.key.series = place.series().name;
+        record.key.level = place.number();
+      }
     };
-    analysis.analyse = [&](const study::Place &place, const method::Method &)
-    { return records_of(found.levels.back(), place); };
+    analysis.analyse = [&](const study::Place &, const method::Method &) { return made; };
     analysis.conclude = conclude;
     found.results =
         run_study(analysis, files.scene, {std::make_shared<const GivenWeights>()}, control);
@@ -219,6 +239,9 @@ namespace plumbline::check
     for (const Findings &level : found.levels)
       for (const std::string &one : complaints(level, required))
         wrong.push_back("h = " + base::to_text(level.level.level.h, 6) + ": " + one);
+    for (const InSpace &level : found.levels_in_space)
+      for (const std::string &one : level.complaints)
+        wrong.push_back("h = " + base::to_text(level.level.h, 6) + ": " + one);
     for (const study::Trend &trend : found.trends)
       if (required.ac &&
           (trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::failed))
@@ -240,16 +263,19 @@ namespace plumbline::check
     for (const study::Trend &trend : found.trends)
       sentences.push_back(trend.problem + ", " + trend.error + ": " + trend.verdict + "; " +
                           trend.reason);
-    const Table table = report::without_empty_columns(table_of(found.levels, found.trends));
-    return check_summary(report::heading(found.results.scene_name, found.results.purpose) + "\n\n" +
-                             report::to_text(table, report::summary_columns) +
-                             (found.assumed.empty() ? "" : found.assumed + "\n") +
-                             "report: " + page + "\n",
-                         sentences, wrong.empty() ? "as required" : "NOT as required");
+    const Table table = report::without_empty_columns(table_of(found));
+    return check_summary(
+        report::heading(found.results.scene_name, found.results.purpose) + "\n\n" +
+            report::to_text(table, report::summary_columns) +
+            (found.assumed.empty() ? "" : found.assumed + "\n") +
+            (found.levels_in_space.empty() ? "report: " + page + "\n" : not_checked_in_space),
+        sentences, wrong.empty() ? "as required" : "NOT as required");
   }
 
   std::string to_json(const Series &found, const LevelFiles &files, const Requirements &required)
   {
+    if (files.scene.domain.is_in_space())
+      return io::to_json(found.results);
     const std::vector<std::string> wrong = complaints(found, required);
     nlohmann::ordered_json json = {{"schema", check_schema},
                                    {"levels", nlohmann::ordered_json::array()}};
@@ -266,7 +292,9 @@ namespace plumbline::check
                     const fs::path &folder)
   {
     report::write_file(folder / "check.json", to_json(found, files, required));
-    report::write_file(folder / "levels.csv", report::to_csv(table_of(found.levels, found.trends)));
+    report::write_file(folder / "levels.csv", report::to_csv(table_of(found)));
+    if (files.scene.domain.is_in_space())
+      return;
     for (std::size_t k = 0; k < found.levels.size(); ++k)
     {
       const fs::path own = folder / level_name(files.levels[k].h);

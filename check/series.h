@@ -1,6 +1,6 @@
 #pragma once
 
-#include "check/requirements.h"
+#include "check/in_space.h"
 #include "study/analysis.h"
 
 #include <filesystem>
@@ -24,19 +24,21 @@ namespace plumbline::check
   LevelFiles find_level_files(const scene::Scene &scene, const Input &input);
 
   /// What is found of the weights of each level, and what the errors of the solutions by them say
-  /// together: rates, and whether they converge to the limit.
+  /// together: rates, and whether they converge to the limit. In space nothing is solved.
   struct Series
   {
     std::vector<Findings> levels;
+    std::vector<InSpace> levels_in_space; ///< instead of those
     study::StudyResults results;
     std::vector<study::Trend> trends; ///< of the weights, by the error that decides
     std::string assumed;              ///< see assumptions()
   };
 
-  /// The study of these levels by find(), one after the other; those before an interrupt.
+  /// The study of these levels by find() or find_in_space(), one after the other; those before an
+  /// interrupt.
   /// @param references  as of find(), whose errors it throws
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const study::RunControl &control);
+                     const Requirements &required, const study::RunControl &control);
 
   /// Of all levels, and 'required ac' where the errors stall.
   std::vector<std::string> complaints(const Series &found, const Requirements &required);
@@ -47,7 +49,8 @@ namespace plumbline::check
 
   std::string to_json(const Series &found, const LevelFiles &files, const Requirements &required);
 
-  /// check.json, levels.csv, a page for each level, and that of the study with charts over h.
+  /// check.json and levels.csv; in the plane a page for each level, and that of the study with
+  /// charts over h.
   void write_series(const Series &found, const LevelFiles &files, const Requirements &required,
                     const std::filesystem::path &folder);
 } // namespace plumbline::check

@@ -139,7 +139,8 @@ namespace plumbline::driver
       control.should_stop = [&] { return ranks.any(is_interrupted()); };
       control.on_progress = [&](const std::string &what, double fraction)
       { progress->show(what, fraction); };
-      const check::Series found = check::find_series(files, reference::methods(), control);
+      const check::Series found =
+          check::find_series(files, reference::methods(), required, control);
       progress.reset();
       const bool is_written =
           is_first &&
@@ -206,13 +207,9 @@ namespace plumbline::driver
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
     check_body_options(options, scene.domain.is_in_space());
-    const bool has_series = check::is_series(options);
-    if (has_series && scene.domain.is_in_space())
-      throw InputError("series of files are checked in the plane alone; give the files of one "
-                       "level");
     const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
                                                    : fs::path(options.output);
-    if (has_series)
+    if (check::is_series(options))
       return show_series(scene, options, required, folder);
     if (scene.domain.is_in_space())
       return show_in_space(scene, options, required);

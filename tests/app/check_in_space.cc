@@ -7,6 +7,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,17 +70,18 @@ end
     int first_id = 1;
   };
 
-  /// A rule's weights on the lattice of h, with nodes around the unit cube.
-  Dump dump(const std::string &name, bool is_tensor)
+  /// A rule's weights on a lattice of n cells along a side, with nodes around the unit cube.
+  Dump dump(const std::string &name, bool is_tensor, const int n = ::n)
   {
+    const double h = 1. / n;
     const auto kernel = is_tensor ? physics::Kernel<3>::with_bulk_modulus(
                                         physics::kernel_type("bond-tensor").profile, m * h, 1)
                                   : physics::Kernel<3>::with_diffusion(
                                         physics::kernel_type("linear-decay").profile, m * h, .5);
     const meshfree::Rule &rule = meshfree::find_rule(name, "rule");
     const auto bonds = lattice_bonds(rule.in_space(kernel), kernel, h, geometry::Backend::fast);
-    constexpr int margin = m + 1, width = n + 2 * margin;
-    const auto index = [](const std::array<int, 3> &at)
+    const int margin = m + 1, width = n + 2 * margin;
+    const auto index = [=](const std::array<int, 3> &at)
     { return at[0] + margin + width * (at[1] + margin + width * (at[2] + margin)); };
     Dump result;
     std::array<int, 3> at{};
@@ -130,15 +133,17 @@ end
       }
     }
 
-    Outcome check(const std::string &meant, bool is_tensor, const std::string &options = "") const
+    /// @param ending  of the names of files
+    Outcome check(const std::string &meant, bool is_tensor, const std::string &options = "",
+                  const std::string &ending = ".csv") const
     {
       std::string text = replaced(scene, "KERNEL", is_tensor ? "bond-tensor" : "linear-decay");
       text = replaced(text, "LIMIT", is_tensor ? "Navier" : "-1/2 Laplace");
       text = replaced(text, "SOLUTION", is_tensor ? "x, y, z" : "x");
       std::ofstream(folder_ / "scene.prm") << replaced(text, "MEANT", meant);
-      return run("check " + (folder_ / "nodes.csv").string() + " " +
-                 (folder_ / "bonds.csv").string() + " --scene " + (folder_ / "scene.prm").string() +
-                 " " + options);
+      return run("check '" + (folder_ / "nodes").string() + ending + "' '" +
+                 (folder_ / "bonds").string() + ending + "' --scene " +
+                 (folder_ / "scene.prm").string() + " " + options);
     }
 
     fs::path folder_;
@@ -208,6 +213,41 @@ TEST_F(CheckInSpace, needs_neither_rules_nor_a_problem)
             " --scene " + (folder_ / "short.prm").string());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, whole.out);
+  }
+}
+
+// At a fixed horizon / h what is off is the same at all levels.
+TEST_F(CheckInSpace, takes_a_series_of_files)
+{
+  const std::string options = "--set Study/h=0.2,0.1 -o " + (folder_ / "out").string();
+  for (const std::string rule : {"FA", "IPA-AC-R2"})
+  {
+    for (const auto &[n_cells, size] : {std::pair(5, "0.2"), std::pair(10, "0.1")})
+    {
+      write(dump(rule, false, n_cells));
+      for (const std::string file : {"nodes", "bonds"})
+        fs::rename(folder_ / (file + ".csv"), folder_ / (file + "_" + size + ".csv"));
+    }
+    const Outcome outcome = check(rule, false, options, "_{h}.csv");
+    const bool is_right = rule != "FA";
+    EXPECT_EQ(outcome.exit_code, is_right ? 0 : 1) << outcome.out << outcome.err;
+    for (const std::string size : {"0.2", "0.1"})
+      EXPECT_EQ(outcome.out.find("h = " + size + ": required ac: ") == std::string::npos, is_right)
+          << outcome.out;
+    expect_found(outcome.out, "not checked in three dimensions: ");
+    const auto records = read_json(folder_ / "out" / "check.json")["records"];
+    ASSERT_EQ(records.size(), 2u);
+    const auto defect = [&](std::size_t level)
+    { return records[level]["scalars"]["second moment defect"]["value"].get<double>(); };
+    for (const std::size_t level : {0u, 1u})
+    {
+      EXPECT_NEAR(records[level]["key"]["h"], level == 0 ? .2 : .1, 1e-12);
+      EXPECT_EQ(records[level]["key"]["level"], level);
+      EXPECT_NEAR(defect(level), is_right ? 0 : .0119, is_right ? 1e-12 : 5e-5);
+    }
+    EXPECT_NEAR(defect(0), defect(1), 1e-12);
+    const std::string table = read(folder_ / "out" / "levels.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   }
 }
 
