@@ -15,8 +15,8 @@ namespace plumbline::driver
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,
   /// solutions; outliers among bonds and nodes; what was done to all weights.
   /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
-  /// check.json; of a series of files levels.csv, a page for each level, and that of the study. In space
-  /// check.json and levels.csv alone, with an output folder.
+  /// check.json; of a series of files levels.csv, a page for each level, and that of the study. In
+  /// space check.json and levels.csv alone, with an output folder.
   /// @return exit code: 0, or 1: a requirement that does not hold, an outlier, a
   ///         cause found, a matrix that is not positive definite, or errors of a series that stall
   ///         where ac is required
