@@ -48,7 +48,8 @@ if(NOT at EQUAL -1)
 endif()
 file(READ ${OUTPUT}/crack_0.5/grow.json crack)
 file(READ ${OUTPUT}/monte_carlo_0.5/samples/000000.jsonl journal)
-string(REGEX REPLACE "^[^\n]*\n" "" sample "${journal}") # after the line of its subject
+string(FIND "${journal}" "\n" at)
+string(SUBSTRING "${journal}" ${at} -1 sample) # after the line of its subject
 string(JSON of_crack GET "${crack}" records 0 scalars "K by bonds" value)
 string(JSON of_sample GET "${sample}" records 0 scalars "K by bonds" value)
 if(NOT of_crack STREQUAL of_sample)
