@@ -143,7 +143,7 @@ namespace plumbline::driver
           check::find_series(files, reference::methods(), required, control);
       progress.reset();
       const bool is_written =
-          is_first &&
+          is_first && !found.results.records.empty() &&
           show(
               scene, options, folder, [&] { return check::to_json(found, files, required); },
               [&] { return check::text(found, required, (folder / "report.html").string()); },
