@@ -63,8 +63,9 @@ namespace plumbline::analysis
         refuse("the scheme ", scheme.name,
                " needs the tangent of the forces, which this model "
                "does not have; take an explicit one");
-      if (stepping.critical_step && !stepping.shows_blow_up && !scheme.is_implicit() &&
-          !scheme.is_runge_kutta && stepping.step > *stepping.critical_step)
+      const bool has_limit = !scheme.is_runge_kutta && (!scheme.is_implicit() || scheme.theta < .5);
+      if (stepping.critical_step && !stepping.shows_blow_up && has_limit &&
+          stepping.step > *stepping.critical_step)
         refuse("time step = ", stepping.step, " is longer than the critical step ",
                *stepping.critical_step, " of the scheme ", scheme.name,
                ", so that errors grow without bound; shorten it, or ask to be shown the blow-up");

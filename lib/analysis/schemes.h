@@ -29,11 +29,12 @@ namespace plumbline::analysis
   /// Runge-Kutta.
   const std::vector<Scheme> &schemes();
 
+  /// One of the table, or "theta T" with a number T in [0, 1]: (18)-(19) of Jha & Lipton 2018.
   /// @throws InputError  unknown name; the message lists the known ones
   const Scheme &scheme(const std::string &name);
 
   /// The largest z such that oscillators ü = -ω² u stay bounded at ωΔt <= z: 2 for symplectic Euler
-  /// and velocity Verlet, infinite for implicit schemes and for Runge-Kutta, which chooses its
-  /// steps, 0 for explicit Euler. To 1e-9.
+  /// and velocity Verlet, infinite for implicit schemes with θ >= ½ and for Runge-Kutta, which
+  /// chooses its steps, 0 for explicit Euler and θ < ½. To 1e-9.
   double stability_limit(const Scheme &scheme);
 } // namespace plumbline::analysis

@@ -164,6 +164,26 @@ namespace plumbline::report
                        { return has_succeeded(record) && record.has("estimated error"); })};
     }
 
+    Part bounds(const StudyResults &results)
+    {
+      return {
+          "bounds", "A priori bounds of errors and energies",
+          "Of Jha & Lipton 2018, doi:10.1137/17M1112236. error: the largest over time of u and "
+          "its rate together, L2 over nodes; bound: of this by (17) for symplectic Euler and by "
+          "(52), with the factor 6 of (41), for schemes with θ; empty for other schemes, and "
+          "where C̄ is infinite or steps are too long. C_t, C_s: (37) and (38), from the largest "
+          "norms along the computed solution. energy and its bound (58): the largest over time. "
+          "Proven for FA with exact areas.",
+          table_of(results,
+                   {text_column("step", "step"), number_column("C_t", "C_t"),
+                    number_column("C_s", "C_s"), error_column("error", "largest error over time"),
+                    error_column("bound", "error bound"), text_column("by", "error bound of"),
+                    number_column("energy", "largest energy"),
+                    number_column("bound of energy", "energy bound")},
+                   [](const Record &record)
+                   { return has_succeeded(record) && record.has("energy bound"); })};
+    }
+
     Part best(const StudyResults &results)
     {
       Table table;
@@ -277,7 +297,15 @@ namespace plumbline::report
                                                   "estimated error",
                                                   "estimated error in space",
                                                   "estimated error by quadrature",
-                                                  "estimated error in time"};
+                                                  "estimated error in time",
+                                                  "C_t",
+                                                  "C_t of (49)",
+                                                  "C_s",
+                                                  "C of (63)",
+                                                  "largest error over time",
+                                                  "error bound",
+                                                  "largest energy",
+                                                  "energy bound"};
       Table table;
       table.columns = {"what", "value"};
       for (const auto &[what, value] : results.facts)
@@ -379,9 +407,9 @@ namespace plumbline::report
     };
     view.facts = {counted(results.records.size(), "run"), "T = " + fact("final time T"),
                   "regime " + fact("regime")};
-    view.parts = {rates(results),  orders(results),   estimates(results), best(results),
-                  failed(results), reasons(results),  runs(results),      reference(results),
-                  model(results),  omissions(results)};
+    view.parts = {rates(results),     orders(results), estimates(results), bounds(results),
+                  best(results),      failed(results), reasons(results),   runs(results),
+                  reference(results), model(results),  omissions(results)};
     view.galleries = {{"charts", "Charts", "", dynamics_charts(results)}};
     if (answer_of(view).empty())
       view.answer = orders_answer(results);

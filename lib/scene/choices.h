@@ -28,7 +28,8 @@ namespace plumbline::scene
   enum class BoundaryFunction
   {
     one,
-    smoothstep ///< t²(3 - 2t), t = min(1, distance to the boundary / horizon)
+    smoothstep, ///< t²(3 - 2t), t = min(1, distance to the boundary / horizon)
+    expression  ///< in x, y and delta
   };
 
   enum class LocalSolution

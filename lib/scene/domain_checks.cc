@@ -124,7 +124,7 @@ namespace plumbline::scene
               "Domain/mesh = squares, or another Kernel/type");
         needs(scene.domain.is_in_space() || scene.methods.nodes.perturbation == 0,
               "Methods/perturbation > 0", mesh_remedy);
-        needs(scene.problem.local_solution != LocalSolution::computed,
+        needs(scene.problem.local_solution != LocalSolution::computed || scene.time.is_dynamic(),
               "Problem/local solution = computed", mesh_remedy);
         return;
       }

@@ -69,6 +69,46 @@ namespace plumbline::scene
       }
     }
 
+    /// The local limit of a transient solution is given, or made of Fourier series.
+    void check_local_limit(const Scene &scene, const std::string &decisive)
+    {
+      const ProblemSection &problem = scene.problem;
+      require(scene.study.decisive_error.target != Target::local ||
+                  problem.local_solution == LocalSolution::computed ||
+                  problem.local_solution == LocalSolution::expression,
+              decisive +
+                  ": the local limit of a transient solution is not known; give Problem/local "
+                  "solution as an expression in x, y and t, or computed for double wells on "
+                  "a torus; or use exact or reference");
+      if (problem.local_solution != LocalSolution::computed)
+        return;
+      const auto needs = [](bool is_good, const std::string &what)
+      {
+        require(is_good, "Problem/local solution = computed in transient analyses needs " + what +
+                             "; write none, or an expression in x, y and t");
+      };
+      needs(scene.domain.is_periodic, "Domain/boundary = periodic");
+      needs(!scene.material.model->is_linear(), "Material/model = double well");
+      needs(problem.loads.empty() && problem.solutions.empty(),
+            "initial data alone: no Problem/solution and no Problem/load");
+      needs(scene.time.damping == 0, "Time/damping = 0");
+    }
+
+    /// The bounds are those of a scheme's proof.
+    void check_bounds(const Scene &scene)
+    {
+      if (!scene.time.has_bounds)
+        return;
+      const auto needs = [](bool is_good, const std::string &what)
+      { require(is_good, "Time/a priori bounds = true needs " + what); };
+      needs(!scene.material.model->is_linear(),
+            "Material/model = double well: they hold for these bonds alone");
+      needs(
+          scene.time.density == 1 && scene.time.damping == 0,
+          "Time/density = 1 and Time/damping = 0, for which they are proven; scale c by 1/density");
+      needs(scene.domain.mesh.is_lattice(), "Domain/mesh = lattice, whose cells they refer to");
+    }
+
     void check_targets(const Scene &scene)
     {
       const StudySection &study = scene.study;
@@ -86,9 +126,7 @@ namespace plumbline::scene
       require(study.decisive_error.target != Target::finest,
               decisive + ": transient solutions are not compared with the method's own finest "
                          "level; use exact or reference");
-      require(study.decisive_error.target != Target::local,
-              decisive +
-                  ": the local limit of a transient solution is not known; use exact or reference");
+      check_local_limit(scene, decisive);
       require(study.decisive_error.target != Target::reference || scene.reference.method,
               decisive + " needs Reference/method = torus");
       if (!scene.reference.method)
@@ -140,5 +178,6 @@ namespace plumbline::scene
                 " needs initial data or a load; give Problem/solution, Problem/load, Time/initial "
                 "displacement or Time/initial velocity");
     check_targets(scene);
+    check_bounds(scene);
   }
 } // namespace plumbline::scene

@@ -129,6 +129,7 @@ namespace plumbline::scene
     double c = 1, beta = 1;          ///< of double wells, > 0, see physics::DoubleWell
     std::optional<double> toughness; ///< G_c of double wells, which with E replaces c and beta
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
+    std::string boundary_expression; ///< in x, y and delta, if boundary_function says so
 
     /// λ and μ as a function of the place. Copies share nothing: give each thread its own.
     /// @throws InputError  (the function) constants of no solid, naming keys and place

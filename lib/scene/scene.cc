@@ -312,6 +312,8 @@ namespace plumbline::scene
         texts.push_back(one.expression);
     if (problem.constraint)
       texts.push_back(*problem.constraint);
+    if (time.is_dynamic() && !problem.local_expression.empty())
+      texts.push_back(problem.local_expression);
     try // expressions with t do not parse without it
     {
       for (const std::string &text : texts)

@@ -21,6 +21,8 @@ namespace plumbline::scene
     std::string initial_velocity;      ///< an expression; empty: the solution's rate at t = 0
     bool shows_blow_up = false;        ///< steps beyond the critical one are taken
     bool is_lumped = false;            ///< masses of Galerkin methods
+    bool has_bounds = false;           ///< a priori bounds beside errors, of double wells
+    double hoelder_exponent = 1;       ///< γ in (0, 1] of these bounds
     unsigned int n_frames = 0;         ///< of the motion, as VTU and PVD
 
     bool is_dynamic() const { return final_time != 0; }

@@ -44,7 +44,10 @@ namespace plumbline::scene
           {"Output/fields", is_static, "a static problem; Time/frames writes states"},
           {"Reference/tolerance", is_static, "a static problem"},
           {"Problem/local solution",
-           is_static || scene.problem.local_solution == LocalSolution::none, "a static problem"},
+           is_static || scene.problem.local_solution == LocalSolution::none ||
+               scene.problem.local_solution == LocalSolution::computed ||
+               !scene.problem.local_expression.empty(),
+           "a static problem, or 'computed' or an expression in transient analyses"},
           {"Quadrature/entries", is_in_plane, exact},
           {"Quadrature/tolerance", is_in_plane, exact},
           {"Quadrature/max refinements", is_in_plane, exact},
@@ -57,6 +60,7 @@ namespace plumbline::scene
            "conjugate gradients with sine transforms"},
           {"Solver/tolerance", is_static || !is_in_space, "a static problem"},
           {"Solver/max iterations", is_static || !is_in_space, "a static problem"},
+          {"Time/Hoelder exponent", scene.time.has_bounds, "Time/a priori bounds = true"},
           {"Time/critical fractions", scene.time.steps.empty(),
            "Time/steps to be empty, which gives the steps themselves"},
           {"Fracture/load step", scene.fracture.breaking == BreakMode::steps,

@@ -138,6 +138,8 @@ namespace plumbline::study
         facts[assumption_1_fact] = words_of_assumption(*bounds, !scene.material.is_homogeneous);
     if (scene.material.boundary_function == scene::BoundaryFunction::smoothstep)
       facts["boundary function"] = "t²(3 − 2t) with t = min(1, (distance to the boundary)/δ)";
+    if (scene.material.boundary_function == scene::BoundaryFunction::expression)
+      facts["boundary function"] = scene.material.boundary_expression + ", δ = delta";
     if (scene.domain.is_damaged())
       facts["broken bonds"] =
           std::string("bonds that cross a crack or a free surface are broken") +

@@ -158,6 +158,8 @@ namespace plumbline::study
       look_at("Problem/load", problem.loads[case_index_].expression);
     if (problem.constraint)
       look_at("Problem/constraint", *problem.constraint);
+    if (!problem.local_expression.empty())
+      look_at("Problem/local solution", problem.local_expression);
     n_points_ = most;
     return most;
   }
@@ -182,6 +184,7 @@ namespace plumbline::study
                          {},
                          series("Problem/load", [&](const problem::Problem<dim> &instant)
                                 { return equation.drive(instant); }),
+                         {},
                          {}};
     if (!is_steady)
     {
@@ -200,6 +203,10 @@ namespace plumbline::study
     if (first.solution)
       data.exact = series("Problem/solution", [&](const problem::Problem<dim> &instant)
                           { return equation.state(*instant.solution); });
+
+    if (scene.problem.local_solution == scene::LocalSolution::expression)
+      data.local = series("Problem/local solution", [&](const problem::Problem<dim> &instant)
+                          { return equation.state(*instant.local_solution); });
 
     physics::Names names = scene.names(first.horizon());
     names.constants["h"] = first.level().h; // for averages over cells

@@ -61,6 +61,7 @@ namespace plumbline::study
     std::optional<problem::Field<dim>> displacement, velocity; ///< that it begins with, where given
     analysis::TimeSeries drive;
     std::optional<analysis::TimeSeries> exact; ///< states of the solution
+    std::optional<analysis::TimeSeries> local; ///< states of a local solution that is given
   };
 
   /// Fields that change in time as polynomials in it, to 1e-11 of themselves, so that u_tt of a

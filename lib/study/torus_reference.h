@@ -24,6 +24,17 @@ namespace plumbline::study
     unsigned int n_points = 0; ///< a side
     double change = 0;         ///< from 2/3 of the points, of u, L2
     double seconds = 0;        ///< CPU
+
+    /// States at equal times from 0 to the end, with accelerations; empty: they were not asked for.
+    struct Instant
+    {
+      analysis::State state;
+      analysis::Vector acceleration;
+    };
+    std::vector<Instant> path;
+    /// Between two of them by the polynomial of degree 5 through all their values.
+    /// @pre !path.empty()
+    analysis::State at(double t) const;
   };
 
   /// Move it with more and more points, until u changes by less than 1e-8 of how far it varies, far

@@ -5,6 +5,8 @@
 #include "method/box_discretisation.h"
 #include "method/discretisation.h"
 #include "method/distributed_motion.h"
+#include "study/bound_log.h"
+#include "study/local_waves.h"
 #include "study/motion_data.h"
 #include "study/motion_estimate.h"
 #include "study/motion_norms.h"
@@ -293,6 +295,9 @@ namespace plumbline::study
         if (data_->exact)
           add_error(state);
         show_due(state);
+        auto bounds = bound_log();
+        if (bounds)
+          observe_bound(*bounds, state);
         watching = timer.seconds();
         try
         {
@@ -302,8 +307,11 @@ namespace plumbline::study
                                   [&](const State &now)
                                   {
                                     const double before = timer.seconds();
-                                    if (log.observe(now) && data_->exact)
+                                    const bool is_kept = log.observe(now);
+                                    if (is_kept && data_->exact)
                                       add_error(now);
+                                    if (is_kept && bounds)
+                                      observe_bound(*bounds, now);
                                     show_due(now);
                                     watching += timer.seconds() - before;
                                   });
@@ -320,8 +328,55 @@ namespace plumbline::study
         add_energies(record, log);
         if (data_->exact)
           record.curves["error"] = std::move(errors);
+        if (bounds && record.failure.empty())
+          bounds->enter(record, scheme, step, n_steps);
         if (record.failure.empty())
           compare(record, state);
+      }
+
+      /// Where it is asked for.
+      std::optional<BoundLog> bound_log() const
+      {
+        if constexpr (dim == 2)
+          if (scene_.time.has_bounds)
+            return BoundLog(scene_, place_.level().horizon, *transient_, *equation_,
+                            equation_->nodes(), place_.level().h, area_);
+        return {};
+      }
+
+      /// Errors against the solution, or the torus at the same time.
+      void observe_bound(BoundLog &bounds, const State &now) const
+      {
+        bounds.observe(now);
+        const auto error = [&](const Vector &u, const Vector &v)
+        {
+          bounds.add_error(error_of(now.u, u, scene::Norm::nodal_l2) +
+                           error_of(now.v, v, scene::Norm::nodal_l2));
+        };
+        if (data_->exact)
+          error(equation_->nodal(data_->exact->at(now.t)),
+                equation_->nodal(data_->exact->derivative().at(now.t)));
+        else if constexpr (dim == 2)
+          if (torus_ != nullptr && bounds.is_tenth(now))
+          {
+            const State exact = torus_->at(now.t);
+            error(torus_->torus.at(equation_->nodes(), exact.u),
+                  torus_->torus.at(equation_->nodes(), exact.v));
+          }
+      }
+
+      /// The waves of the local limit, from the initial data.
+      void compare_with_waves(const std::function<void(const Vector &, const Vector &)> &against,
+                              double t) const
+      {
+        if constexpr (dim == 2)
+        {
+          const auto field = [](const std::optional<problem::Field<2>> &given)
+          { return given ? given->value : LocalWaves::Field{}; };
+          const auto local = LocalWaves(scene_, field(data_->displacement), field(data_->velocity))
+                                 .at(t, equation_->nodes());
+          against(local.u, local.v);
+        }
       }
 
       /// On the first rank, of all nodes.
@@ -387,6 +442,13 @@ namespace plumbline::study
         if (data_->exact)
           against(scene::Target::exact, equation_->nodal(data_->exact->at(end.t)),
                   equation_->nodal(data_->exact->derivative().at(end.t)));
+        if (data_->local)
+          against(scene::Target::local, equation_->nodal(data_->local->at(end.t)),
+                  equation_->nodal(data_->local->derivative().at(end.t)));
+        if (scene_.problem.local_solution == scene::LocalSolution::computed)
+          compare_with_waves([&](const Vector &u, const Vector &v)
+                             { against(scene::Target::local, u, v); },
+                             end.t);
         if constexpr (dim == 2)
           if (torus_ != nullptr)
           {

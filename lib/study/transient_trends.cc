@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "scene/models/model.h"
+#include "study/bound_log.h"
 #include "study/expectations.h"
 #include "study/model_facts.h"
 #include "study/solution_record.h"
@@ -286,11 +287,14 @@ namespace plumbline::study
     }
 
     /// One for each method whose waves grow, or whose operator is not symmetric, at some level.
-    void say_warnings(StudyResults &results)
+    void say_warnings(const scene::Scene &scene, StudyResults &results)
     {
-      std::set<std::string> growing, methods;
+      std::set<std::string> growing, methods, steps;
       for (const Record &record : results.records)
       {
+        if (const std::string warning = step_warning(scene, record);
+            !warning.empty() && steps.insert(warning).second)
+          results.warnings.push_back(warning);
         if (const std::string growth = growth_in(record);
             !growth.empty() && growing.insert(record.key.method).second)
           results.warnings.push_back(
@@ -310,9 +314,10 @@ namespace plumbline::study
 
   void conclude_transient(const scene::Scene &scene, StudyResults &results)
   {
-    const bool is_known =
-        scene.reference.method || (!scene.problem.solutions.empty() &&
-                                   scene.study.decisive_error.target == scene::Target::exact);
+    const bool is_known = scene.reference.method ||
+                          (!scene.problem.solutions.empty() &&
+                           scene.study.decisive_error.target == scene::Target::exact) ||
+                          scene.study.decisive_error.target == scene::Target::local;
     const std::string decisive = is_known ? scene.study.decisive_error.text() : "";
     if (is_known)
     {
@@ -325,7 +330,7 @@ namespace plumbline::study
       results.trends.push_back(std::move(trend));
     say_facts(scene, results);
     say_omissions(scene, results);
-    say_warnings(results);
+    say_warnings(scene, results);
 
     StudyResults statics; // expectations of levels are those of statics
     statics.decisive_error = results.decisive_error;

@@ -1,5 +1,6 @@
 #include "analysis/integrate.h"
 
+#include "analysis/amplification.h"
 #include "analysis/critical_step.h"
 #include "base/error.h"
 
@@ -90,6 +91,74 @@ TEST(Integrate, every_scheme_has_its_order)
       EXPECT_NEAR(fitted_order(springs(3, damping), one.name), one.order, .1)
           << one.name << " with damping " << damping;
     }
+}
+
+// Jha & Lipton 2018, doi:10.1137/17M1112236, (18)-(19) and Theorem 4
+TEST(Integrate, schemes_with_theta_have_order_two_at_one_half_alone)
+{
+  for (const auto &[name, order] :
+       {std::pair{"theta 0.5", 2}, std::pair{"theta 0.55", 1}, std::pair{"theta 0.75", 1},
+        std::pair{"theta 1", 1}, std::pair{"theta 0.25", 1}, std::pair{"theta 0", 1}})
+  {
+    EXPECT_EQ(scheme(name).order, order) << name;
+    EXPECT_NEAR(fitted_order(springs(3, 0), name), order, .15) << name;
+  }
+  for (const auto &[name, same] :
+       {std::pair{"theta 0", "explicit Euler"}, std::pair{"theta 0.5", "trapezoidal"},
+        std::pair{"theta 1", "implicit Euler"}})
+    EXPECT_EQ(error_of(springs(3, .2), name, .05), error_of(springs(3, .2), same, .05)) << name;
+  for (const char *const wrong :
+       {"theta", "theta 1.1", "theta -0.1", "theta x", "theta 0.5 x", "theta0.5", "theta nan"})
+    EXPECT_THROW(scheme(wrong), InputError) << wrong;
+}
+
+TEST(Integrate, schemes_with_theta_below_one_half_grow_with_every_step)
+{
+  EXPECT_EQ(stability_limit(scheme("theta 0.49")), 0);
+  EXPECT_EQ(stability_limit(scheme("theta 0.5")), std::numeric_limits<double>::infinity());
+  const State state{{1}, {0}, 0};
+  EXPECT_NE(refusal(oscillator(2), "theta 0.3", {.1, 0.}, state).find("critical step 0 "),
+            std::string::npos);
+  EXPECT_EQ(refusal(oscillator(2), "theta 0.3", {.1, 0., true}, state), "accepted");
+}
+
+TEST(SpectralRadius, is_the_growth_of_motions_in_a_step)
+{
+  constexpr double rate = 3, step = .1;
+  const Motion unstable{1, [](const Vector &u, double, Vector &a) { a[0] = rate * rate * u[0]; },
+                        [](const Vector &, const Vector &v, Vector &out)
+                        { out[0] = rate * rate * v[0]; }};
+  for (const char *const name : {"implicit Euler", "trapezoidal", "theta 0.7", "explicit Euler",
+                                 "symplectic Euler", "velocity Verlet", "Blanes-Moan"})
+    for (const bool is_growing : {true, false})
+    {
+      // of oscillators the norm of many steps shows it
+      const Motion motion = is_growing ? unstable : oscillator(rate);
+      const double lambda = is_growing ? rate * rate : -rate * rate;
+      std::vector<double> sizes;
+      State state{{1}, {is_growing ? rate : 0}, 0};
+      integrate(motion, scheme(name), {step, {}, true}, is_growing ? 10 : 100, state,
+                [&](const State &now) { sizes.push_back(std::hypot(now.u[0], now.v[0] / rate)); });
+      const std::size_t n = sizes.size(), first = n / 5 - 1;
+      const double found = std::pow(sizes[n - 1] / sizes[first],
+                                    1. / static_cast<double>(n - 1 - first)),
+                   expected = spectral_radius(scheme(name), lambda, step);
+      EXPECT_NEAR(found, expected, is_growing ? 1e-6 : 1e-3) << name << ' ' << is_growing;
+    }
+}
+
+// Jha & Lipton 2018, doi:10.1137/17M1112236, (65): it exceeds 1 only while √λ Δt < 2
+TEST(SpectralRadius, of_implicit_euler_is_that_of_the_paper)
+{
+  const Scheme &euler = scheme("implicit Euler");
+  for (const double z : {.1, .5, 1.5, 1.99, 2.01, 5.})
+  {
+    EXPECT_NEAR(spectral_radius(euler, z * z, 1), std::abs(1 + z) / std::abs(1 - z * z), 1e-12);
+    EXPECT_EQ(spectral_radius(euler, z * z, 1) > 1, z < 2) << z;
+  }
+  EXPECT_NEAR(spectral_radius(scheme("explicit Euler"), .04, 1), 1.2, 1e-12);
+  EXPECT_NEAR(spectral_radius(scheme("theta 0.3"), -4, 1), std::sqrt((1 + .49 * 4) / (1 + .09 * 4)),
+              1e-12);
 }
 
 TEST(Integrate, runge_kutta_is_exact_in_time)

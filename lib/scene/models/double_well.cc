@@ -1,5 +1,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
+#include "physics/expression.h"
+#include "physics/one_step_bound.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
 #include "scene/values.h"
@@ -106,9 +108,19 @@ namespace plumbline::scene
             },
             "Fracture toughness G_c > 0 of double wells, given with E instead of c and beta "
             "('plumbline grow' has Fracture/toughness). [force/length]");
-        keys.add("boundary function", material.boundary_function,
-                 "omega of double wells: one, or smoothstep, t^2 (3 - 2t) with t = min(1, distance "
-                 "to the boundary / horizon), which weakens bonds near the boundary.");
+        keys.add(
+            "boundary function", base::word(BoundaryFunction::one), any_text(),
+            [&material](const std::string &text)
+            {
+              material.boundary_function =
+                  base::from_word<BoundaryFunction>(text).value_or(BoundaryFunction::expression);
+              material.boundary_expression =
+                  material.boundary_function == BoundaryFunction::expression ? text : "";
+            },
+            "omega of double wells, which weakens bonds near the boundary: one; smoothstep, "
+            "t^2 (3 - 2t) with t = min(1, distance to the boundary / horizon); or an expression in "
+            "x, y and delta (the horizon) with values in [0, 1], in the interaction domain as "
+            "well. A bond between x and y has the factor omega(x) omega(y).");
       }
 
       bool is_linear() const override { return false; }
@@ -149,6 +161,8 @@ namespace plumbline::scene
         (void)make_double_well(scene, 1);
         if (material.boundary_function == BoundaryFunction::one)
           return;
+        if (material.boundary_function == BoundaryFunction::expression)
+          return check_boundary_expression(scene);
         require(scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty(),
                 "Material/boundary function = smoothstep falls to 0 at the sides of Domain/boxes, "
                 "which Domain/mesh = " +
@@ -159,6 +173,37 @@ namespace plumbline::scene
                 "Problem/load = manufactured with Material/boundary function = smoothstep: its "
                 "kinks inside the ball reduce the accuracy of the quadrature (2.5e-5 of the load); "
                 "write boundary function = one, or give Problem/load as expressions");
+      }
+
+      /// @throws InputError  it is not in [0, 1]
+      static double boundary_value(const physics::Expression &omega, const std::string &text,
+                                   const dealii::Point<2> &x)
+      {
+        const double value = omega(x);
+        require(value >= 0 && value <= 1,
+                "Material/boundary function = '" + text + "' is " + short_number(value) +
+                    " at x = " + short_number(x[0]) + ", y = " + short_number(x[1]) +
+                    "; omega must be in [0, 1], for example min(1, max(0, (" + text + ")))");
+        return value;
+      }
+
+      /// Its values at some points of the boxes; all others follow where they are taken.
+      static void check_boundary_expression(const Scene &scene)
+      {
+        constexpr unsigned int n_points = 23;
+        const std::string &text = scene.material.boundary_expression;
+        const physics::Expression omega("Material/boundary function", text, scene.names(1));
+        require(omega.n_components() == 1, "Material/boundary function = '" + text + "' has " +
+                                               std::to_string(omega.n_components()) +
+                                               " components; give one, in x, y and delta");
+        for (const geometry::Box &box : scene.domain.boxes.include)
+          for (unsigned int i = 0; i < n_points * n_points; ++i)
+          {
+            dealii::Point<2> x = box.lower;
+            x[0] += (box.upper[0] - box.lower[0]) * (i % n_points + .5) / n_points;
+            x[1] += (box.upper[1] - box.lower[1]) * (i / n_points + .5) / n_points;
+            (void)boundary_value(omega, text, x);
+          }
       }
 
       physics::Kernel<2> kernel(const Scene &scene, double horizon) const override
@@ -173,6 +218,14 @@ namespace plumbline::scene
           problem.boundary_function = [box = scene.domain.boxes.include.front(),
                                        horizon = level.horizon](const dealii::Point<2> &x)
           { return smoothstep(box, horizon, x); };
+        if (scene.material.boundary_function == BoundaryFunction::expression)
+        {
+          const std::string &text = scene.material.boundary_expression;
+          problem.boundary_function =
+              [text, omega = physics::Expression("Material/boundary function", text,
+                                                 scene.names(level.horizon))](
+                  const dealii::Point<2> &x) { return boundary_value(omega, text, x); };
+        }
       }
 
       std::vector<std::pair<std::string, std::string>> facts(const Scene &scene,
@@ -208,7 +261,16 @@ namespace plumbline::scene
             "h^γ/ε² for data in C^(0,γ), γ <= 1, and Δt; smooth data converge faster");
         facts.emplace_back("factor of that bound, T exp(T (1 + 6 C̄/ε²)), eq. (17) there; too large "
                            "to bound the actual error usefully",
-                           number(final_time * std::exp(final_time * (1 + lipschitz))));
+                           number(physics::growth_factor(lipschitz, final_time)));
+        facts.emplace_back(
+            "C₁, C₂ of section 6 there, C₂ with √3 as printed for three dimensions",
+            number(physics::growth_factor(lipschitz, final_time)) + ", " +
+                number(physics::section_six_factor(law.c_bar(), horizon, final_time)));
+        facts.emplace_back("steps of θ schemes that the bound (52) covers: (53), ε²/C̄, as printed; "
+                           "with the factor 6 of (41), at θ = ½ and 1",
+                           number(physics::printed_step_limit(law)) + "; " +
+                               number(physics::step_limit(law, .5)) + ", " +
+                               number(physics::step_limit(law, 1)));
         facts.emplace_back("softening strain of a bond as long as the horizon",
                            number(law.softening_strain(horizon)));
         return facts;

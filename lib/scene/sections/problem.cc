@@ -44,7 +44,10 @@ namespace plumbline::scene
           local_expression = local_solution == LocalSolution::expression ? text : "";
         },
         "Solution of the local limit: solution (if it does not depend on the horizon), none, "
-        "computed (by classical finite elements; needs a mesh), or an expression.");
+        "computed (by classical finite elements; needs a mesh), or an expression. In transient "
+        "analyses: an expression in x, y and t, or computed, by Fourier series, for double wells "
+        "on "
+        "a torus without a load.");
   }
 
   std::vector<std::string> ProblemSection::case_names() const

@@ -18,7 +18,10 @@ namespace plumbline::scene
         [this](const std::string &text) { schemes = to_names(text); },
         "Time-stepping schemes, separated by ',': explicit Euler (unstable, for demonstration), "
         "symplectic Euler, velocity Verlet, Blanes-Moan (order 4), trapezoidal, implicit Euler, "
-        "Runge-Kutta (adaptive steps).");
+        "Runge-Kutta (adaptive steps); 'theta T' with a number T in [0, 1], for example theta "
+        "0.75, "
+        "is the one-step scheme (18)-(19) of Jha & Lipton 2018: 0 explicit Euler, 0.5 trapezoidal, "
+        "1 implicit Euler. For T < 0.5 every oscillation grows with any step.");
     keys.add("steps", steps, numbers(),
              "Time steps, separated by ',', decreasing. Empty: see critical fractions. [time]");
     keys.add("critical fractions", fractions, numbers(),
@@ -40,6 +43,14 @@ namespace plumbline::scene
     keys.add("mass", is_lumped, "consistent", "lumped",
              "Mass matrix of Galerkin methods: consistent, solved exactly, or lumped, its scaled "
              "diagonal.");
+    keys.add(
+        "a priori bounds", has_bounds, yes_or_no(),
+        "For double wells: evaluate the error bounds (17) and (43) and the energy bound (58) of "
+        "Jha & Lipton 2018, with C_t, C_s and C, beside the largest error over time. They are "
+        "evaluated along Problem/solution or the torus reference, without either along the "
+        "computed solution.");
+    keys.add("Hoelder exponent", hoelder_exponent, any_number(),
+             "gamma in (0, 1] of the Hoelder norms of these bounds; smooth data: 1.");
     keys.add("frames", n_frames, count(0, 100000),
              "Number of equidistant states written as VTU files, with a PVD file, for each method "
              "at the finest level with the first scheme and the shortest step.");
@@ -59,6 +70,8 @@ namespace plumbline::scene
             "must be positive and finite; give the mass per unit volume");
     require(damping >= 0 && std::isfinite(damping), "damping", damping,
             "must not be negative, which would add energy; give a rate >= 0");
+    require(hoelder_exponent > 0 && hoelder_exponent <= 1, "Hoelder exponent", hoelder_exponent,
+            "must be in (0, 1]; write 1 for smooth data");
     for (const double step : steps)
       require(step > 0 && std::isfinite(step), "steps", step, "must be positive; give a time > 0");
     for (const double fraction : fractions)
