@@ -307,6 +307,34 @@ TEST(LocalWaves, are_the_limit_of_double_wells)
   EXPECT_NEAR(rate("0.2*sin(2*pi*x)"), 1, .15);
 }
 
+// A linear wave u_tt = Δu whose u is given: only rules with exact second moments arrive at it.
+TEST(LocalWaves, of_linear_models_are_given_as_expressions)
+{
+  const std::string u = "sin(2*pi*(x + y))";
+  const auto results =
+      run(scene::parse_scene("t.prm", scene::scene_template("scalar"),
+                             {{"Problem/solution", ""},
+                              {"Problem/load", "0"},
+                              {"Problem/constraint", u + "*cos(2*pi*sqrt(2)*t)"},
+                              {"Problem/local solution", u + "*cos(2*pi*sqrt(2)*t)"},
+                              {"Kernel/limit", "-Laplace"},
+                              {"Time/final time", "0.3"},
+                              {"Time/initial displacement", u},
+                              {"Methods/names", "FA, IPA-AC-R2"},
+                              {"Study/regime", "delta"},
+                              {"Study/m", "3"},
+                              {"Study/h", "0.1, 0.05, 0.025, 0.0125"},
+                              {"Study/norms", "nodal L2"},
+                              {"Study/decisive error", "nodal L2 | local"}}));
+  ASSERT_EQ(results.trends.size(), 4u); // u and its rate, by two methods
+  for (const Trend &trend : results.trends)
+  {
+    const double rate = std::log2(trend.values[2] / trend.values[3]);
+    const bool is_right = trend.method == "IPA-AC-R2";
+    EXPECT_NEAR(rate, is_right ? 2 : .1, is_right ? .2 : .4) << trend.method << ", " << trend.error;
+  }
+}
+
 TEST(LocalWaves, are_refused_where_they_are_not_known)
 {
   EXPECT_NE(refusal({{"Problem/local solution", "computed"}, {"Time/damping", "1"}})

@@ -538,6 +538,8 @@ TEST(Motions, refuse_steps_beyond_the_critical_one_with_its_number)
   expect_refused(with({{"Time/steps", "0.3"}}), "longer than the critical one, 0.298");
   expect_refused(with({{"Time/critical fractions", "1.1"}}), "1.1 of critical with the scheme");
   expect_refused(with({{"Time/schemes", "explicit Euler"}}), "unstable at any step");
+  expect_refused(with({{"Time/schemes", "theta 0.3"}}), "unstable at any step");
+  expect_refused(with({{"Time/schemes", "theta 2"}}), "'theta T' with a number T in [0, 1]");
   expect_refused(with({{"Time/schemes", "leapfrog"}}), "Time/schemes: time-stepping scheme");
 }
 
