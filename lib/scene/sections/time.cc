@@ -43,12 +43,11 @@ namespace plumbline::scene
     keys.add("mass", is_lumped, "consistent", "lumped",
              "Mass matrix of Galerkin methods: consistent, solved exactly, or lumped, its scaled "
              "diagonal.");
-    keys.add(
-        "a priori bounds", has_bounds, yes_or_no(),
-        "For double wells: evaluate the error bounds (17) and (43) and the energy bound (58) of "
-        "Jha & Lipton 2018, with C_t, C_s and C, beside the largest error over time. They are "
-        "evaluated along Problem/solution or the torus reference, without either along the "
-        "computed solution.");
+    keys.add("a priori bounds", has_bounds, yes_or_no(),
+             "For double wells: the error bounds (17), for symplectic Euler, and (52), for schemes "
+             "with theta, and the energy bound (58) of Jha & Lipton 2018, with C_t, C_s and C, "
+             "beside the largest error over time (against Problem/solution or the torus "
+             "reference). The norms in C_t and C_s are the largest of the computed solution.");
     keys.add("Hoelder exponent", hoelder_exponent, any_number(),
              "gamma in (0, 1] of the Hoelder norms of these bounds; smooth data: 1.");
     keys.add("frames", n_frames, count(0, 100000),
