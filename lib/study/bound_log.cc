@@ -186,7 +186,7 @@ namespace plumbline::study
     const physics::DoubleWell law = make_double_well(scene, record.key.horizon);
     const double printed = physics::printed_step_limit(law),
                  limit = physics::step_limit(law, scheme.theta);
-    if (step < limit)
+    if (step < limit || limit == 0) // 0: C̄ is infinite, and there is no bound at any step
       return "";
     const auto number = [](double value) { return base::to_text(value, 4); };
     return scheme.name + ": steps of " + number(step) +
