@@ -168,21 +168,34 @@ namespace plumbline::algebra
 
   void DirectStencil::apply(const double *input, double *output) const
   {
+    take(input, -halo_, n_[2] + halo_);
+    compute(0, n_[2], output);
+  }
+
+  void DirectStencil::take(const double *input, int from, int to) const
+  {
+    const std::size_t plane_size = static_cast<std::size_t>(n_[0]) * n_[1];
     for (unsigned int s = 0; s < n_blocks_; ++s)
-      for (int k = -halo_; k < n_[2] + halo_; ++k)
-        for (int j = 0; j < n_[1]; ++j, input += n_[0])
-          std::copy_n(input, n_[0], padded_row(j, k, s));
-    const int n_rows = n_[1] * n_[2];
+      for (int k = from; k < to; ++k)
+      {
+        const double *row = input + (s * (n_[2] + 2 * halo_) + k + halo_) * plane_size;
+        for (int j = 0; j < n_[1]; ++j, row += n_[0])
+          std::copy_n(row, n_[0], padded_row(j, k, s));
+      }
+  }
+
+  void DirectStencil::compute(int from, int to, double *output) const
+  {
     dealii::parallel::apply_to_subranges(
-        0, n_rows,
-        [&](int from, int to)
+        from * n_[1], to * n_[1],
+        [&](int first, int last)
         {
           if (n_blocks_ == 1)
-            apply_rows<1>(from, to, output);
+            apply_rows<1>(first, last, output);
           else if (n_blocks_ == 2)
-            apply_rows<2>(from, to, output);
+            apply_rows<2>(first, last, output);
           else
-            apply_rows<3>(from, to, output);
+            apply_rows<3>(first, last, output);
         },
         16);
   }

@@ -27,6 +27,12 @@ namespace plumbline::algebra
     ///                       reaches[2] planes; it counts as 0 outside
     void apply(const double *input, double *output) const;
 
+    /// The two parts of apply(), for input whose planes arrive one after the other: take planes
+    /// [from, to) of the input, which begin at -reaches[2] with a halo, then compute planes [from,
+    /// to) of the output. Bits do not depend on how planes are divided.
+    void take(const double *input, int from, int to) const;
+    void compute(int from, int to, double *output) const;
+
     /// Estimated seconds an apply takes on one core, to choose a backend (measured on one machine).
     static double estimated_seconds(const Stencil &stencil, const std::array<int, 3> &n);
 

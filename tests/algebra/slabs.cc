@@ -3,11 +3,14 @@
 #include "base/slabs.h"
 #include "algebra/linear_system.h"
 #include "algebra/rectangle_solver.h"
+#include "algebra/slab_model.h"
+#include "algebra/slab_operator.h"
 #include "algebra/slab_system.h"
 #include "base/error.h"
 
 #include <deal.II/lac/vector.h>
 
+#include <fftw3-mpi.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,6 +88,28 @@ namespace
   }
 
   constexpr double rounding = 1e-12;
+
+  /// What this rank sends to transpose planes to rows and back, by the sizes that FFTW tells.
+  base::Traffic transposed_by_fftw(const Extents &n, const Slabs &slabs)
+  {
+    const Slabs row_slabs(slabs.ranks(), n[1]);
+    const std::array<std::ptrdiff_t, 3> extents = {n[2], n[1], n[0]};
+    std::ptrdiff_t n_planes = 0, first_plane = 0, n_rows = 0, first_row = 0;
+    fftw_mpi_init();
+    fftw_mpi_local_size_many_transposed(3, extents.data(), 1, slabs.block(), row_slabs.block(),
+                                        slabs.ranks().mpi, &n_planes, &first_plane, &n_rows,
+                                        &first_row);
+    base::Traffic sent;
+    for (unsigned int other = 0; other < slabs.ranks().n_ranks(); ++other)
+    {
+      std::array<std::ptrdiff_t, 2> there = {n_planes, n_rows};
+      MPI_Bcast(there.data(), sizeof(there), MPI_BYTE, static_cast<int>(other), slabs.ranks().mpi);
+      for (const std::size_t n_lines : {n_planes * there[1], n_rows * there[0]})
+        if (other != slabs.ranks().rank() && n_lines > 0)
+          sent += {1, sizeof(double) * n[0] * n_lines};
+    }
+    return sent;
+  }
 } // namespace
 
 TEST(Slabs, have_each_plane_once_in_order)
@@ -149,6 +174,29 @@ TEST(SlabSystem, is_the_operator_of_one_rank)
             EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding)
                 << n_blocks << ", " << is_even << ", " << reach[2] << ", " << n[2];
           }
+}
+
+TEST(SlabOperator, has_the_bits_of_one_rank_where_stencils_are_direct)
+{
+  for (const unsigned int n_blocks : {1u, 2u, 3u})
+    for (const Extents &n :
+         {Extents{7, 6, 5}, {35, 4, 30}, {5, 1, 23}}) // {5, 1, 23}: a plane lattice
+    {
+      const Stencil stencil = make_stencil(n_blocks, {2, n[1] == 1 ? 0 : 1, 3}, true);
+      const Slabs slabs(Communicator::all(), n[2]);
+      const Vector input = random_values(n_blocks * n[0] * n[1] * n[2]);
+      Vector expected(input.size());
+      DirectStencil(stencil, n).apply(input.begin(), expected.begin());
+      const Vector own = own_part(input, n_blocks, n, slabs);
+      Vector output(own.size());
+      const SlabOperator slab(stencil, n, slabs, OperatorBackend::direct);
+      for (int time = 0; time < 2; ++time) // the second finds planes of the first
+      {
+        output = 0.;
+        slab.apply(own.begin(), output.begin());
+        EXPECT_EQ(difference(output, expected, n_blocks, n, slabs), 0) << n_blocks << ", " << n[2];
+      }
+    }
 }
 
 TEST(SlabSystem, has_the_preconditioner_of_one_rank)
@@ -218,4 +266,67 @@ TEST(SlabSystem, is_refused_by_all_ranks)
   EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::sparse), InputError);
   stencil(0, 0, 1, 0, 0) *= 2;
   EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::automatic), NumericalError);
+}
+
+// What PlaneExchange counts as it posts messages, for boxes and for a lattice in the plane.
+TEST(SlabModel, knows_the_messages_that_an_operator_sends)
+{
+  for (const unsigned int n_blocks : {1u, 3u})
+    for (const Extents &n : {Extents{7, 6, 5}, {5, 4, 17}, {9, 1, 40}})
+      for (const int planes_more : {0, 1}) // of cells, where nodes are vertices
+        for (const auto backend : {OperatorBackend::direct, OperatorBackend::fft})
+        {
+          const Stencil stencil = make_stencil(n_blocks, {2, n[1] == 1 ? 0 : 1, 3}, true);
+          const Slabs slabs = Slabs(Communicator::all(), n[2] + planes_more).with_planes(n[2]);
+          const auto layout =
+              SlabLayout::of(stencil, n, slabs.ranks().n_ranks(), n[2] + planes_more);
+          EXPECT_EQ(layout.owned(slabs.ranks().rank()), slabs.owned());
+          Vector own(n_blocks * n[0] * n[1] * slabs.n_owned()), output(own.size());
+          const SlabOperator slab(stencil, n, slabs, backend);
+          slab.apply(own.begin(), output.begin());
+          const base::Traffic expected = halo_traffic(layout, slabs.ranks().rank());
+          EXPECT_EQ(slab.sent().n_messages, expected.n_messages);
+          EXPECT_EQ(slab.sent().n_bytes, expected.n_bytes);
+          const double n_sent = slabs.ranks().sum(static_cast<double>(expected.n_messages));
+          EXPECT_EQ(n_sent > 0, slabs.ranks().n_ranks() > 1);
+        }
+}
+
+TEST(SlabModel, knows_what_transposes_send)
+{
+  for (const unsigned int n_blocks : {1u, 2u})
+    for (const Extents &n : {Extents{7, 6, 5}, {5, 4, 17}, {6, 19, 3}})
+    {
+      const Slabs slabs(Communicator::all(), n[2]);
+      const auto layout =
+          SlabLayout::of(Stencil(n_blocks, Extents{1, 1, 1}), n, slabs.ranks().n_ranks(), n[2]);
+      const base::Traffic expected = n_blocks * transposed_by_fftw(n, slabs),
+                          found = transpose_traffic(layout, slabs.ranks().rank());
+      EXPECT_EQ(found.n_messages, expected.n_messages);
+      EXPECT_EQ(found.n_bytes, expected.n_bytes);
+    }
+}
+
+// By hand: 4 planes of 6 nodes on 3 ranks, blocks of 2, so that the last rank has none; reach 1.
+TEST(SlabModel, adds_latency_bandwidth_and_work)
+{
+  const Extents n = {3, 2, 4};
+  Stencil stencil(1, Extents{1, 1, 1});
+  stencil(0, 0, 0, 0, 0) = 1;
+  const auto layout = SlabLayout::of(stencil, n, 3, n[2]);
+  EXPECT_EQ(layout.n_working(), 2u);
+  EXPECT_EQ(halo_traffic(layout, 0), (base::Traffic{1, 48}));
+  EXPECT_EQ(halo_traffic(layout, 2), base::Traffic{});
+  Rates rates;
+  rates.latency = 1000;
+  rates.byte = 1;
+  rates.bond = 1e6;
+  rates.level = 0;
+  rates.value = 0;
+  EXPECT_DOUBLE_EQ(operator_time(layout, stencil, rates).seconds(), 12e6 + 1000 + 48);
+  // two planes of one row to the rank of the other row, and back a row of the two planes there
+  EXPECT_DOUBLE_EQ(preconditioner_time(layout, rates).seconds(), 2 * (1000 + 48));
+  // three sums of two stages
+  EXPECT_DOUBLE_EQ(iteration_time(layout, stencil, rates).seconds(),
+                   12e6 + 3 * (1000 + 48) + 6 * (1000 + 8));
 }
