@@ -147,8 +147,11 @@ namespace plumbline::app
       run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
       run.add_flag("--pdf", options->pdf, pdf_help);
       run.add_flag("--estimate", options->is_estimate,
-                   "Print the estimated peak memory of each rank by method and level, and exit "
-                   "without running");
+                   "Print the estimated peak memory of each rank by method and level, on several "
+                   "ranks also the time of an iteration, and exit without running");
+      run.add_option("--ranks", options->n_ranks,
+                     "With --estimate: for so many ranks (default: those that run)")
+          ->check(CLI::Range(1u, 1000000u));
       set_action(run, request, options, driver::run, true);
     }
 

@@ -18,6 +18,7 @@
 #include "scene/capabilities.h"
 #include "study/memory_estimate.h"
 #include "study/preflight.h"
+#include "study/rank_times.h"
 #include "study/sampling.h"
 #include "study/statics.h"
 #include "study/transient.h"
@@ -109,14 +110,15 @@ namespace plumbline::driver
       return task;
     }
 
-    /// Prints the estimated memory of each rank by method and level.
+    /// Prints the estimated memory of each rank by method and level, and on several ranks the time.
     /// @throws InputError  where it is not estimated
     void print_estimate(const RunOptions &options, const scene::Scene &scene)
     {
       if (scene.time.is_dynamic() && !scene.domain.is_in_space())
         throw InputError("--estimate: the memory of transient analyses is estimated in three "
                          "dimensions only; in the plane, run the first levels only (--levels)");
-      const base::Communicator ranks = base::Communicator::all();
+      const unsigned int n_ranks =
+          options.n_ranks > 0 ? options.n_ranks : base::Communicator::all().n_ranks();
       method::Methods methods = study::choose_methods(scene, all_methods());
       if (scene.reference.method && !scene.time.is_dynamic())
       {
@@ -126,10 +128,14 @@ namespace plumbline::driver
                          [&](const auto &one) { return one->name() == reference->name(); }))
           methods.push_back(reference);
       }
-      const auto estimates =
-          study::estimate_memory(scene, methods, options.n_levels, ranks.n_ranks());
-      if (ranks.rank() == 0)
-        std::cout << report::memory_text(estimates, ranks.n_ranks(), base::available_memory());
+      const auto estimates = study::estimate_memory(scene, methods, options.n_levels, n_ranks);
+      const algebra::Rates rates;
+      std::vector<study::TimeOfLevel> times;
+      if (n_ranks > 1 && scene.domain.is_in_space())
+        times = study::predict_times(scene, methods, options.n_levels, n_ranks, rates);
+      if (base::Communicator::all().rank() == 0)
+        std::cout << report::memory_text(estimates, n_ranks, base::available_memory())
+                  << report::times_text(times, n_ranks, rates);
     }
 
     /// Frames fill no more than half of what is free.
@@ -231,6 +237,11 @@ namespace plumbline::driver
       throw InputError(
           "--estimate prints a text table and cannot be combined with --json, which prints "
           "the results of a run; leave out one of them");
+    if (options.n_ranks > 0 && !options.is_estimate)
+      throw InputError("--ranks = " + std::to_string(options.n_ranks) +
+                       " is of --estimate alone, which runs nothing; add --estimate, or run on so "
+                       "many ranks by mpirun -np " +
+                       std::to_string(options.n_ranks));
     if (options.is_estimate)
     {
       print_estimate(options, scene);

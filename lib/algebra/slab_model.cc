@@ -129,7 +129,7 @@ namespace plumbline::algebra
   {
     const std::array<int, 3> own = layout.first_slab();
     const double work =
-        is_direct(stencil, layout.n, OperatorBackend::automatic)
+        is_direct(stencil, layout.n, layout.backend)
             ? rates.bond * static_cast<double>(stencil.n_entries()) * n_nodes(own)
             : Convolution::estimated_seconds(
                   layout.n_blocks, stencil.reaches(),

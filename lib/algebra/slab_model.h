@@ -2,6 +2,7 @@
 
 #include "algebra/stencil.h"
 #include "base/slabs.h"
+#include "base/solver_choices.h"
 #include "base/traffic.h"
 
 #include <array>
@@ -18,6 +19,7 @@ namespace plumbline::algebra
     int reach = 0;             ///< planes of others that an operator needs on either side
     unsigned int n_ranks = 1;
     int block = 1; ///< planes of the first rank
+    base::OperatorBackend backend = base::OperatorBackend::automatic;
 
     /// @param n_planes  from which blocks follow: n[2], or that of the cells where nodes are their
     /// vertices
@@ -42,15 +44,16 @@ namespace plumbline::algebra
   /// messages (Thakur, Rabenseifner & Gropp 2005, doi:10.1177/1094342005051521, sec. 4.5).
   base::Traffic reduction_traffic(unsigned int n_ranks);
 
-  /// What one core and its share of the network do. The defaults are assumed, not measured here: a
-  /// network of 2 µs and 10 GB/s for each rank, and a core as those of 2020; benchmarks/ranks
-  /// measures all of them on the machine at hand.
+  /// What one core and its share of the network do. The defaults are assumed, not measured: a
+  /// message takes 2 µs, and each rank sends 10 GB/s, as on a network of 100 Gbit/s or more with
+  /// few ranks on each of its links; work is taken to be about half as fast as benchmarks/ranks
+  /// finds it in the caches of one core of 2020, since the cores of a machine share its memory.
   struct Rates
   {
     double latency = 2e-6;   ///< α: of a message [s]
     double byte = 1. / 10e9; ///< β: of a byte sent [s]
     double bond = .2e-9;     ///< of an entry of a direct stencil at one node [s]
-    double level = 1e-9;     ///< of a sine transform, by value and log2 of their number [s]
+    double level = 4e-9;     ///< of a sine transform, by value and log2 of their number [s]
     double value = 8. / 5e9; ///< of a number that a vector operation reads or writes [s]
   };
 

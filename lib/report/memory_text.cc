@@ -22,6 +22,61 @@ namespace plumbline::report
                         : std::string("the run")) +
            ", besides that of the program itself" +
            (std::isfinite(available) ? "; available: " + base::bytes_to_text(available) : "") +
-           "\n\n" + to_text(table) + "\ntime: not estimated before a run\n";
+           "\n\n" + to_text(table);
+  }
+
+  namespace
+  {
+    std::string constants(const algebra::Rates &rates)
+    {
+      constexpr double micro = 1e6, nano = 1e9;
+      return "time = work + α messages + β bytes sent, with assumed constants: α = " +
+             rounded(micro * rates.latency) + " µs, β = 1 / (" + rounded(1 / (nano * rates.byte)) +
+             " GB/s); work: " + rounded(nano * rates.bond) +
+             " ns for an entry of the operator at a node, " + rounded(nano * rates.level) +
+             " ns for a value and level of a sine transform, " + rounded(nano * rates.value) +
+             " ns for a number of a vector (benchmarks/ranks measures them)";
+    }
+
+    std::vector<Cell> cells(const study::TimeOfLevel &level, const std::string &operation,
+                            const algebra::ModelTime &time)
+    {
+      constexpr double milli = 1e3, mega = 1e-6;
+      return {text_cell(level.method),
+              text_cell(level.series),
+              number_cell(level.level.h),
+              count_cell(level.layout.block),
+              count_cell(level.layout.n_working()),
+              text_cell(operation),
+              number_cell(milli * time.seconds()),
+              number_cell(milli * time.work),
+              number_cell(milli * time.messages),
+              number_cell(milli * time.bytes),
+              count_cell(time.sent.n_messages),
+              number_cell(mega * static_cast<double>(time.sent.n_bytes))};
+    }
+  } // namespace
+
+  std::string times_text(const std::vector<study::TimeOfLevel> &times, unsigned int n_ranks,
+                         const algebra::Rates &rates)
+  {
+    if (times.empty())
+      return "\ntime: predicted only where several ranks share the work in slabs\n";
+    Table table{"",
+                {"method", "series", "h", "planes", "ranks at work", "operation", "time [ms]",
+                 "work [ms]", "latency [ms]", "bandwidth [ms]", "messages", "sent [MB]"},
+                {}};
+    for (const study::TimeOfLevel &one : times)
+    {
+      const bool is_solved = one.iteration.seconds() > 0;
+      table.rows.push_back(cells(one, is_solved ? "operator" : "forces", one.apply));
+      if (is_solved)
+      {
+        table.rows.push_back(cells(one, "preconditioner", one.precondition));
+        table.rows.push_back(cells(one, "CG iteration", one.iteration));
+      }
+    }
+    return "\npredicted time and messages of each of " + std::to_string(n_ranks) + " ranks\n" +
+           wrapped(constants(rates), 120) + "\n\n" + to_text(without_empty_columns(table));
   }
 } // namespace plumbline::report

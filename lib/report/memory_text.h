@@ -1,6 +1,7 @@
 #pragma once
 
 #include "study/memory_estimate.h"
+#include "study/rank_times.h"
 
 namespace plumbline::report
 {
@@ -8,4 +9,9 @@ namespace plumbline::report
   /// @param available  of one process [bytes]; infinite: not known
   std::string memory_text(const std::vector<study::MemoryOfLevel> &estimates, unsigned int n_ranks,
                           double available);
+
+  /// A table of predicted times and messages on each of so many ranks, after the constants that
+  /// they are predicted with; that there are none where it is empty.
+  std::string times_text(const std::vector<study::TimeOfLevel> &times, unsigned int n_ranks,
+                         const algebra::Rates &rates);
 } // namespace plumbline::report

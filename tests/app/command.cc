@@ -140,6 +140,8 @@ TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
   expect_refusal("--set 'Problem/solution=case1: x; case2: y; case3: log(x)'", "gives");
   expect_refusal("--methods IPA", "method 'IPA' is not known; choose one of FA, LAMMPS");
   expect_refusal("--budget -1", "--budget is negative");
+  expect_refusal("--ranks 64", "--ranks = 64 is of --estimate alone, which runs nothing; add "
+                               "--estimate, or run on so many ranks by mpirun -np 64");
   expect_refusal("--estimate --json",
                  "--estimate prints a text table and cannot be combined with --json");
   expect_refusal("--set Domain/mesh=no.geo", "Domain/mesh: mesh file");

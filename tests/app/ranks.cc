@@ -166,8 +166,14 @@ TEST(Ranks, are_told_the_memory_of_each_before_the_run)
   EXPECT_EQ(count(shared.out, "estimated peak memory of each of 2 ranks"), 1u) << shared.out;
   EXPECT_EQ(count(shared.out, "(4 x 4 x 4 cells) on each of 2 ranks"), 1u) << shared.out; // FA
   EXPECT_EQ(count(shared.out, "(32 x 32 x 32 cells)"), 0u) << shared.out;
+  EXPECT_EQ(count(shared.out, "predicted time and messages of each of 2 ranks"), 1u) << shared.out;
+  EXPECT_EQ(count(shared.out, "CG iteration"), 1u) << shared.out; // of FA
   EXPECT_FALSE(fs::exists(folder));
+  const Outcome many = run(cube + " --levels 1 --ranks 4");
+  expect_found(many.out, "estimated peak memory of each of 4 ranks");
+  expect_found(many.out, "predicted time and messages of each of 4 ranks");
   const Outcome alone = run(cube);
+  expect_found(alone.out, "time: predicted only where several ranks share the work in slabs");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(count(alone.out, "(32 x 32 x 32 cells)"), 2u) << alone.out;
   EXPECT_FALSE(fs::exists(folder));
