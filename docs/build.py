@@ -19,6 +19,7 @@ import plumbline_cpp  # noqa: E402
 import plumbline_gallery  # noqa: E402
 import plumbline_python  # noqa: E402
 import plumbline_reference as reference  # noqa: E402
+import plumbline_scaling  # noqa: E402
 
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax
 
@@ -51,6 +52,7 @@ def prepare(program, folder):
              "reference/python_api.md": plumbline_python.page(program),
              "gallery.md": plumbline_gallery.page(ROOT, program, work, source / "_static" / "gallery")}
     pages["certified.md"] = plumbline_certified.page(ROOT, program, tell, work, source / "_static" / "gallery")
+    pages["guides/ranks.md"] = plumbline_scaling.page(ROOT, program, work, source / "_static" / "gallery")
     for name, text in pages.items():
         path = source / name
         path.parent.mkdir(exist_ok=True)

@@ -46,8 +46,9 @@ namespace plumbline::algebra
 
   /// What one core and its share of the network do. The defaults are assumed, not measured: a
   /// message takes 2 µs, and each rank sends 10 GB/s, as on a network of 100 Gbit/s or more with
-  /// few ranks on each of its links; work is taken to be about half as fast as benchmarks/ranks
-  /// finds it in the caches of one core of 2020, since the cores of a machine share its memory.
+  /// few ranks on each of its links. Stencils and transforms are about as fast as benchmarks/ranks
+  /// finds them on a small machine with all cores busy; vectors come from memory, 5 GB/s for each
+  /// core.
   struct Rates
   {
     double latency = 2e-6;   ///< α: of a message [s]
