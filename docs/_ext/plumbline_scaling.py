@@ -3,6 +3,7 @@ import csv
 import re
 import shlex
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 from plumbline_run import CommandFailed, run
 
@@ -39,16 +40,16 @@ def predict(n, h, n_ranks, work, program):
 
 
 def predictions(work, program):
-    """(title, cells, h) of each study with the rows for each number of ranks."""
+    """The rows of each study for each number of ranks."""
     studies = [("strong", "cube", lambda n_ranks: [1000, 1000, 1000], 1 / 1000),
                ("strong", "bar", lambda n_ranks: [SIDE, SIDE, RANKS[-1]], 1 / SIDE),
                ("weak", "bar", lambda n_ranks: [SIDE, SIDE, n_ranks], 1 / SIDE)]
     found = []
-    for study, body, cells, h in studies:
-        rows, constants = {}, ""
-        for n_ranks in RANKS:
-            rows[n_ranks], constants = predict(cells(n_ranks), h, n_ranks, work, program)
-        found.append({"study": study, "body": body, "cells": cells, "rows": rows, "constants": constants})
+    with ThreadPoolExecutor(2) as pool:
+        for study, body, cells, h in studies:
+            tables = list(pool.map(lambda n_ranks: predict(cells(n_ranks), h, n_ranks, work, program), RANKS))
+            found.append({"study": study, "body": body, "cells": cells, "constants": tables[0][1],
+                          "rows": {n_ranks: rows for n_ranks, (rows, _) in zip(RANKS, tables)}})
     return found
 
 
@@ -206,7 +207,7 @@ def page(root, program, work, pictures):
         "be along z.", ""]
     for one in predicted:
         parts += [f"### {one['study'].capitalize()} scaling, {one['body']}", "", *model_table(one), ""]
-    parts += ["One of the commands:", "", "```sh", example, "```", "",
+    parts += ["One of the commands:", "", f"```{{command}} {example}", "```", "",
               "## Measured", "",
               f"`mpirun -np P build/release/benchmarks/ranks` measures the constants and the operations in one run, as medians, "
               "for a stencil of radius 3: α and β by ping-pong between two ranks, rates of work by all ranks at once. "
