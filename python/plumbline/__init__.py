@@ -10,6 +10,9 @@ if _n is not None and not (_n.isdigit() and 0 < int(_n) <= 100000):  # deal.II e
     raise ValueError("the environment variable DEAL_II_NUM_THREADS must be a whole number from 1 "
                      "to 100000; unset it, or call plumbline.set_threads")
 
+from . import _arguments
+_arguments.explain_core()
+
 from ._core import (InputError, Kernel, NumericalError, Problem, Rule, Solution, __version__,
                     kernels, methods, reference, set_threads, solve)
 from ._checks import Findings, Weights, check, weights
@@ -26,3 +29,6 @@ __all__ = ["Findings", "InputError", "Kernel", "Matrix", "Nodes", "NumericalErro
            "check", "crack", "dispersion", "grade", "grow", "kernels", "load_matrix", "matrix", "methods", "moduli",
            "moduli_of_weights", "read_nodes", "reference", "run", "set_threads", "solve", "space", "stability",
            "strip", "to_meshio", "to_pyvista", "weights"]
+
+_arguments.explain_python(__all__, globals())
+_arguments.explain_python(space.__all__, vars(space))

@@ -113,3 +113,41 @@ def test_a_kernel_takes_the_file_of_its_table(tmp_path):
     expected = plumbline.Kernel("table", .3, table=np.array([[0, 1], [1, 0]]))(bonds)
     assert np.array_equal(plumbline.Kernel("table", .3, table=file)(bonds), expected)
     assert np.array_equal(plumbline.Kernel("table", .3, table=str(file))(bonds), expected)
+
+
+@pytest.mark.parametrize("words, action", [
+    (["Kernel has no argument E", "give Kernel(type, horizon, diffusion=None", "bulk_modulus = 2/3 E"],
+     lambda: plumbline.Kernel("bond-tensor", E=200e9)),
+    (["did you mean diffusion?"], lambda: plumbline.Kernel("constant", .3, difusion=1)),
+    (["the argument horizon is missing"], lambda: plumbline.Kernel("constant")),
+    (["at most 2 arguments without a name", "diffusion", "by name"], lambda: plumbline.Kernel("constant", .3, 1)),
+    (["horizon = 'x' is not a number"], lambda: plumbline.Kernel("constant", "x")),
+    (["Problem: kernel = 3 is not a plumbline.Kernel"], lambda: plumbline.Problem(3)),
+    (["Problem.of_scene has no argument levels", "did you mean level?"],
+     lambda: plumbline.Problem.of_scene("x", levels=3)),
+    (["weights: kernel = 'k' is not a plumbline.Kernel"], lambda: plumbline.weights("FA", "k", .1)),
+    (["weights has no argument H"], lambda: plumbline.weights("FA", KERNEL, H=.1)),
+    (["space.Kernel: the argument horizon is missing"], lambda: plumbline.space.Kernel("constant")),
+    (["Kernel.moment has no argument c"], lambda: KERNEL.moment((0, 0), c=1)),
+    (["xi = 'x' is not an array of numbers"], lambda: KERNEL("x")),
+    (["set_threads(-1)", "out of range"], lambda: plumbline.set_threads(-1)),
+    (["Solution has no constructor"], lambda: plumbline.Solution()),
+])
+def test_arguments_are_told_by_name_with_those_that_are_allowed(words, action):
+    with pytest.raises(TypeError) as caught:
+        action()
+    for word in words:
+        assert word in str(caught.value)
+    for foreign in ("incompatible", "_core", "Invoked with", "\n"):
+        assert foreign not in str(caught.value)
+
+
+def test_every_public_function_and_class_explains_its_arguments():
+    for module in (plumbline, plumbline.space):
+        for name in module.__all__:
+            one = getattr(module, name)
+            if callable(one) and not (isinstance(one, type) and (issubclass(one, (Exception, tuple)) or
+                                                                 one.__module__ != "plumbline._core")):
+                with pytest.raises(TypeError) as caught:
+                    one(no_such_argument=1)
+                assert "no_such_argument" in str(caught.value) or "no constructor" in str(caught.value), name
