@@ -65,7 +65,9 @@ namespace plumbline::app
         return "";
       const std::string type = option->get_type_name();
       return type.rfind("UINT", 0) == 0    ? "; give a whole number, 0 or greater"
-             : type.rfind("FLOAT", 0) == 0 ? "; give a number such as 0.5 or 1e-3"
+             : type.rfind("FLOAT", 0) == 0 ? "; give a number such as 0.5 or 1e-3, without a unit "
+                                             "(all values in one system of units, so that 200 GPa "
+                                             "are 200e9 in Pa)"
                                            : "";
     }
 

@@ -14,9 +14,11 @@
 #include "grade.h"
 #include "io/results_json.h"
 #include "list.h"
+#include "new.h"
 #include "parser_text.h"
 #include "probe.h"
 #include "scene/new_scene.h"
+#include "scene_argument.h"
 #include "unexpected.h"
 
 #include <deal.II/base/exceptions.h>
@@ -113,7 +115,8 @@ namespace plumbline::app
           [=, &request]
           {
             options->overrides = to_overrides(request.settings);
-            return action(*options);
+            return with_scene(options->scene_file, options->overrides,
+                              [&] { return action(*options); });
           },
           is_for_all_ranks);
     }
@@ -244,7 +247,7 @@ namespace plumbline::app
 
     constexpr auto angles_option = "--angles", directions_option = "--directions";
 
-    /// Of waves, as they are given.
+    /// The directions of waves, as the command line gives them.
     struct DirectionWords
     {
       std::vector<std::string> angles, vectors;
@@ -325,7 +328,8 @@ namespace plumbline::app
                          "bond-tensor (default), 'bond-tensor constant' or 'bond-tensor conical'");
       command.add_option(
           "--state", options->state,
-          "strain (plane strain, the default as in scenes), stress (plane stress) or 3D");
+          "strain (plane strain, the default as in scenes), stress (plane stress) or 3D; "
+          "plane-stress and plane-strain will do");
       command
           .add_option(check::ratios_option, options->ratios,
                       "Ratios m = horizon / h, separated by commas, semicolons or blanks (default: "
@@ -337,6 +341,7 @@ namespace plumbline::app
       set_action(command, request,
                  [=]
                  {
+                   std::replace(options->state.begin(), options->state.end(), '-', ' ');
                    const auto found = check::moduli_of_rules(*options);
                    return print(*is_json ? io::to_json(found)
                                          : report::study_text(check::moduli_view(found), found));
@@ -412,15 +417,30 @@ namespace plumbline::app
       set_action(command, request, [=] { return grade(*options); });
     }
 
-    /// What takes one word and prints or writes something about it.
+    enum class Words
+    {
+      one,
+      several ///< a phrase, with or without quotes
+    };
+
+    /// What takes one word or phrase and prints or writes something about it.
     void add_word(CLI::App &app, Request &request, const std::string &name, const std::string &help,
                   const std::string &word, const std::string &word_help,
-                  const std::function<int(const std::string &)> &action)
+                  const std::function<int(const std::string &)> &action, Words words = Words::one)
     {
-      const auto text = std::make_shared<std::string>();
+      const auto all = std::make_shared<std::vector<std::string>>();
       auto &command = *app.add_subcommand(name, help);
-      command.add_option(word, *text, word_help)->required();
-      set_action(command, request, [=] { return action(*text); });
+      auto &option = *command.add_option(word, *all, word_help)->required();
+      if (words == Words::one)
+        option.expected(1);
+      set_action(command, request,
+                 [=]
+                 {
+                   std::string text;
+                   for (const std::string &one : *all)
+                     text += (text.empty() ? "" : " ") + one;
+                   return action(text);
+                 });
     }
 
     void add_words(CLI::App &app, Request &request)
@@ -451,9 +471,10 @@ namespace plumbline::app
                                         : scene::scene_template(model));
                });
       app.get_subcommand("template")->add_flag("--short", *is_short, "A scene of at most 20 lines");
-      add_word(app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
-               "Section/key, Section, or words to search for in the help of all keys",
-               [](const std::string &key) { return print(scene::describe(key)); });
+      add_word(
+          app, request, "describe", "Print meaning, default and allowed values of keys", "KEY",
+          "Section/key, Section, or words to search for in the help of all keys",
+          [](const std::string &key) { return print(scene::describe(key)); }, Words::several);
     }
 
     void add_new(CLI::App &app, Request &request)
@@ -469,17 +490,7 @@ namespace plumbline::app
       command.add_option("--kernel", options->kernel, "Kernel type, see 'plumbline list kernels'");
       command.add_option("--methods", options->methods,
                          "Methods, comma separated, see 'plumbline list methods'");
-      set_action(command, request,
-                 [=]
-                 {
-                   const scene::NewScene written = scene::write_new_scene(*options);
-                   return print("written: " + written.file +
-                                (written.table.empty()
-                                     ? ""
-                                     : " and " + written.table +
-                                           " (t = r / horizon and rho: put your profile there)") +
-                                "; next: plumbline " + written.command + ' ' + written.file + '\n');
-                 });
+      set_action(command, request, [=] { return print(write_scene(*options)); });
     }
 
     /// @param topic  a command, what 'plumbline list' lists, a key, or words
@@ -497,10 +508,11 @@ namespace plumbline::app
     /// Commands about the command itself.
     void add_own(CLI::App &app, Request &request)
     {
-      add_word(app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
-               "A command, methods, models, analyses, kernels, scenes, problems, or a key as in "
-               "describe",
-               [&app](const std::string &topic) { return help(app, topic); });
+      add_word(
+          app, request, "help", "Print the help of a command, a list, or keys", "TOPIC",
+          "A command, methods, models, analyses, kernels, scenes, problems, or a key as in "
+          "describe",
+          [&app](const std::string &topic) { return help(app, topic); }, Words::several);
       app.get_subcommand("help")->get_option("TOPIC")->required(false);
       add_word(app, request, "completion", "Print a script that completes commands and options",
                "SHELL", "bash or zsh",

@@ -17,33 +17,51 @@ namespace plumbline::driver
     volatile std::sig_atomic_t interrupted = 0;
     std::atomic<const char *> notice = ""; ///< of the handlers
 
+    std::atomic<const char *> last_notice = ""; ///< of a second signal
+
     /// Async-signal-safe.
-    void write_notice()
+    void write_text(const char *text)
     {
       const int error = errno;
-      const char *const text = notice;
       (void)!write(STDERR_FILENO, text, std::strlen(text));
       errno = error;
     }
 
-    /// The first signal ends the run after the present solve; a second one ends it at once.
-    void on_interrupt(int signal)
+    void end_now(int signal, const char *text)
+    {
+      std::signal(signal, SIG_DFL);
+      write_text(text);
+      std::raise(signal); // is delivered when the handler returns
+    }
+
+    void end_on_second(int signal)
+    {
+      end_now(signal, last_notice);
+    }
+
+    /// The first signal ends the run after the present solve; a second one, of either kind, ends it
+    /// at once.
+    void on_interrupt(int)
     {
       interrupted = 1;
-      std::signal(signal, SIG_DFL);
-      write_notice();
+      for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, end_on_second);
+      write_text(notice);
     }
 
     void end_on_interrupt(int signal)
     {
-      std::signal(signal, SIG_DFL);
-      write_notice();
-      std::raise(signal); // is delivered when this handler returns
+      end_now(signal, notice);
     }
 
     void handle_interrupts(const char *text, void (*handler)(int))
     {
-      notice = base::Communicator::all().rank() == 0 ? text : "";
+      const bool is_first = base::Communicator::all().rank() == 0;
+      notice = is_first ? text : "";
+      last_notice = is_first
+                        ? "\ninterrupted again: ended at once; what was finished before is kept "
+                          "('plumbline report FOLDER' shows it for 'run')\n"
+                        : "";
       for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, handler);
     }

@@ -12,8 +12,9 @@ namespace plumbline::driver
   /// the process.
   /// @param notice  is written at the first signal, and outlives all of them
   void watch_interrupts(const char *notice =
-                            "\ninterrupted: finishing the current solve or time step, then writing "
-                            "the results so far; press Ctrl-C again to stop at once\n");
+                            "\ninterrupted: ends after the current solve or time step, which may "
+                            "take a while, and writes the results so far; Ctrl-C again: ends now, "
+                            "finished results are kept\n");
   bool is_interrupted();
 
   /// Says on the terminal where the results of an interrupted command are, and whether the same

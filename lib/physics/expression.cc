@@ -74,6 +74,19 @@ namespace plumbline::physics
       return result;
     }
 
+    /// A name behind a number, as in 200GPa.
+    bool is_unit(const mu::ParserError &error)
+    {
+      const std::string text = error.GetExpr();
+      const auto at = static_cast<std::size_t>(error.GetPos());
+      std::size_t i = std::min(at, text.size());
+      while (i > 0 && text[i - 1] == ' ')
+        --i;
+      return error.GetPos() > 0 && i > 0 &&
+             std::isdigit(static_cast<unsigned char>(text[i - 1])) != 0 &&
+             std::isalpha(static_cast<unsigned char>(text[at])) != 0;
+    }
+
     /// What muParser does not understand, in our words.
     std::string reason(const mu::ParserError &error)
     {
@@ -86,6 +99,9 @@ namespace plumbline::physics
       {
       case mu::ecUNASSIGNABLE_TOKEN:
       case mu::ecINVALID_NAME:
+        if (is_unit(error))
+          return about("there is a unit or an unknown name") +
+                 " (numbers have no units: 200 GPa are 200e9 in Pa)";
         return about("there is an unknown name or sign") +
                " (functions are sin, cos, exp, sqrt, abs, ...; z needs Domain/dimension = 3)";
       case mu::ecUNEXPECTED_EOF:

@@ -28,6 +28,9 @@ namespace plumbline::scene
   /// Where a random scene is taken, and in how many samples.
   void check_sampling(const Scene &scene);
 
+  /// A strip with a notch has bonds with two wells: no dilatation, no other Poisson ratio.
+  void check_model_of_crack(const Scene &scene);
+
   /// A strip with a notch, and nothing else that would move it.
   void check_crack(const Scene &scene);
 

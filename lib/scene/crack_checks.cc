@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "scene/capabilities.h"
 #include "scene/checks.h"
+#include "scene/models/model.h"
 #include "scene/values.h"
 
 #include <cmath>
@@ -39,6 +40,23 @@ namespace plumbline::scene
                          "; increase it, or decrease Study/h or Study/m");
     }
   } // namespace
+
+  void check_model_of_crack(const Scene &scene)
+  {
+    const MaterialSection &material = scene.material;
+    if (!scene.crack.is_there() || !material.model->is_state_based())
+      return;
+    const bool is_stress = material.plane == physics::PlaneState::stress;
+    throw InputError(
+        "Material/model = " + material.model->name() +
+        " with Crack/notch > 0: 'plumbline crack' simulates bonds of Material/model = double well, "
+        "for which nu = " +
+        (is_stress ? "1/3 in plane stress" : "1/4 in plane strain") +
+        "; write double well, with Material/nu = " + (is_stress ? "0.3333" : "0.25") +
+        " or empty. For another nu, Material/model = LPS is supported by 'plumbline run' and, for "
+        "quasi-static fracture, by 'plumbline grow' (Fracture/toughness), both with Crack/notch = "
+        "0");
+  }
 
   void check_crack(const Scene &scene)
   {

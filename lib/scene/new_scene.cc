@@ -4,6 +4,7 @@
 #include "base/similar_words.h"
 #include "base/text_file.h"
 #include "physics/kernel.h"
+#include "scene/new_mesh.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace plumbline::scene
     namespace fs = std::filesystem;
 
     constexpr auto square = "square", cube = "cube", elastic = "elastic", scalar = "scalar",
-                   crack = "crack";
+                   crack = "crack", bar = "variational";
 
     /// The profile that a kernel type leaves to the scene: for a start one that falls to 0 at the
     /// horizon, or does nearly.
@@ -70,40 +71,70 @@ namespace plumbline::scene
       return result;
     }
 
+    std::vector<Override> changes_of_cube(bool is_scalar)
+    {
+      return {{"Domain/dimension", "3"},
+              {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
+              {"Problem/solution", is_scalar ? "x^3 + 2*y^2*z^2" : "x^3*y^2, y^2*z^3, x^2*z + y^3"},
+              {"Methods/names", "FA, IPA-AC, IPA-AC-R2, Q1"},
+              {"Study/h", "0.25, 0.125, 0.0625, 0.03125"},
+              {"Study/norms", "nodal Linf, averages L2"}};
+    }
+
+    /// Curved outlines are met by straight sides: averages over cells compare what both have.
+    std::vector<Override> changes_of_mesh(const NewMesh &mesh, const std::string &name,
+                                          bool is_scalar)
+    {
+      std::vector<Override> changes = {{"Domain/mesh", name}};
+      if (mesh.dimension == 3)
+      {
+        changes.push_back({"Domain/dimension", "3"});
+        changes.push_back(
+            {"Problem/solution", is_scalar ? "x^3 + 2*y^2*z^2" : "x^3*y^2, y^2*z^3, x^2*z + y^3"});
+      }
+      const std::string space = mesh.is_quadrilaterals ? "Q1" : "P1";
+      if (mesh.dimension == 3)
+        changes.push_back({"Methods/nodes", "mesh"});
+      const std::vector<Override> rest = {{"Methods/names", "FA, IPA-AC, IPA-AC-R2, " + space},
+                                          {"Study/m", mesh.m},
+                                          {"Study/h", mesh.h},
+                                          {"Study/norms", "averages L2"},
+                                          {"Study/decisive error", "averages L2 | exact"}};
+      changes.insert(changes.end(), rest.begin(), rest.end());
+      return changes;
+    }
+
+    /// @param note  set where a mesh file is read
     std::vector<Override> changes_of(const NewSceneOptions &options, const fs::path &folder,
-                                     const fs::path &table)
+                                     const fs::path &table, std::string &note)
     {
       std::vector<Override> changes;
+      const bool is_scalar = options.kind == scalar, is_bar = options.kind == bar;
       if (options.kind == crack && options.domain != square)
         throw InputError("--domain = '" + options.domain +
                          "', but a crack runs in a strip; leave it out, and change Domain/boxes in "
                          "the scene");
       if (options.domain == cube)
-        changes = {{"Domain/dimension", "3"},
-                   {"Domain/boxes", "0, 0, 0 : 1, 1, 1"},
-                   {"Problem/solution",
-                    options.kind == scalar ? "x^3 + 2*y^2*z^2" : "x^3*y^2, y^2*z^3, x^2*z + y^3"},
-                   {"Methods/names", "FA, IPA-AC, IPA-AC-R2, Q1"},
-                   {"Study/h", "0.25, 0.125, 0.0625, 0.03125"},
-                   {"Study/norms", "nodal Linf, averages L2"}};
+        changes = changes_of_cube(is_scalar);
+      else if (options.domain != square && is_bar)
+        throw InputError("--domain = '" + options.domain +
+                         "', but the scene of --kind variational is a bar that is pulled, made of "
+                         "boxes; leave it out, and change Domain/boxes and fixed in the scene");
       else if (options.domain != square)
       {
-        // curved outlines are met by straight sides: averages over cells compare what both have
-        changes = {
-            {"Domain/mesh", fs::proximate(options.domain, folder).string()},
-            {"Methods/names", "FA, IPA-AC, IPA-AC-R2, P1"},
-            {"Study/norms", "averages L2"},
-            {"Study/decisive error", "averages L2 | exact"},
-        };
-        if (!fs::exists(options.domain))
-          throw InputError("--domain: mesh file '" + options.domain +
-                           "' is not there; give a .geo or .msh file, square or cube");
+        const NewMesh mesh = look_at_mesh(options.domain);
+        note = mesh.found;
+        changes = changes_of_mesh(mesh, fs::proximate(options.domain, folder).string(), is_scalar);
       }
       if (!options.kernel.empty())
       {
         changes.push_back({"Kernel/type", options.kernel});
         for (const Override &one : profile_of(options.kernel, table))
           changes.push_back(one);
+        // of a profile of one's own a polynomial of the third degree shows round-off, and no rate
+        if (options.kernel.find("table") != std::string::npos && options.domain == square &&
+            is_scalar)
+          changes.push_back({"Problem/solution", "sin(2*x)*cos(y)"});
       }
       if (!options.methods.empty())
         changes.push_back({"Methods/names", options.methods});
@@ -134,7 +165,7 @@ namespace plumbline::scene
     fs::path table = file;
     table.replace_extension(".csv");
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    const auto changes = changes_of(options, folder, table);
+    const auto changes = changes_of(options, folder, table, written.note);
     const std::string text =
         short_template(options.kind == elastic ? "tensor" : options.kind, changes);
     const bool has_table =

@@ -17,6 +17,7 @@ namespace plumbline::scene
   {
     std::string file, command;
     std::string table; ///< of the kernel's profile, beside the scene; empty: it needs none
+    std::string note;  ///< what was found in a mesh file; empty: there is none
   };
 
   /// Writes a short scene, and a table where its kernel needs one.

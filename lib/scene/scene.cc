@@ -20,6 +20,7 @@
 #include "scene/values.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -63,6 +64,7 @@ namespace plumbline::scene
       scene.random.complete(scene.domain, scene.folder);
       scene.kernel.complete(scene.folder);
       scene.material.names = scene.random.names();
+      check_model_of_crack(scene);
       scene.material.complete();
       scene.time.complete();
       scene.crack.complete();
@@ -92,6 +94,49 @@ namespace plumbline::scene
       Keys keys;
       declare(keys, scene);
       return keys.name_of(path);
+    }
+
+    /// Where a file sets the key that a message opens with, as ", line 3"; empty: it does not, or
+    /// an override does.
+    std::string place_of_key(const std::string &message, const std::vector<Setting> &settings,
+                             const std::vector<Override> &overrides)
+    {
+      if (message.find('/') == std::string::npos)
+        return "";
+      Scene scene;
+      Keys keys;
+      declare(keys, scene);
+      const auto opens_with = [&](const std::string &key)
+      {
+        return message.rfind(key, 0) == 0 &&
+               (message.size() == key.size() ||
+                std::isalnum(static_cast<unsigned char>(message[key.size()])) == 0);
+      };
+      const auto name_of = [&](const std::string &key) -> std::string
+      {
+        try
+        {
+          return keys.name_of(key);
+        }
+        catch (const InputError &) // a message about it is on its way
+        {
+          return "";
+        }
+      };
+      std::string place, key; // "Time/final time" is no "Time/final"
+      for (const Setting &one : settings)
+        if (const std::string name = name_of(one.key);
+            name.find('/') != std::string::npos && opens_with(name) && name.size() > key.size())
+        {
+          key = name;
+          place = one.place;
+        }
+      for (const Override &one : overrides)
+        if (const std::string name = name_of(one.key);
+            !name.empty() && opens_with(name) && name.size() >= key.size())
+          place = "";
+      const bool is_line = place.find("line ") != std::string::npos; // in JSON files it is the key
+      return is_line ? ", " + place : "";
     }
 
     struct KeyWithoutEffect : InputError
@@ -131,7 +176,8 @@ namespace plumbline::scene
           std::any_of(overrides.begin(), overrides.end(),
                       [&](const Override &one) { return name_of_key(one.key) == unused.key; });
       if (overrides.empty() || is_overridden || has_unused_keys(file, settings, field))
-        throw KeyWithoutEffect(what + ": " + unused.text);
+        throw KeyWithoutEffect(what + place_of_key(unused.text, settings, overrides) + ": " +
+                               unused.text);
       overrides.push_back({unused.key, by_default});
       return build(file, what, settings, overrides, field);
     }
@@ -156,12 +202,15 @@ namespace plumbline::scene
         }
         catch (const InputError &error)
         {
-          throw InputError(what + place + ": " + error.what());
+          throw InputError(
+              what +
+              (place.empty() ? place_of_key(error.what(), settings, overrides) : ", " + place) +
+              ": " + error.what());
         }
       };
       std::map<std::string, std::string> places; // of keys in whatever spelling
       for (const Setting &one : settings)
-        saying(", " + one.place,
+        saying(one.place,
                [&]
                {
                  keys.set(one.key, one.value);
@@ -196,7 +245,8 @@ namespace plumbline::scene
 
     /// Checks that the scene is valid at all values of Study/variable.
     /// @param what  opens messages
-    Scene checked(Scene scene, const std::string &what)
+    Scene checked(Scene scene, const std::string &what, const std::vector<Setting> &settings,
+                  const std::vector<Override> &overrides)
     try
     {
       if (scene.study.regime == Regime::variable)
@@ -207,7 +257,8 @@ namespace plumbline::scene
     }
     catch (const InputError &error)
     {
-      throw InputError(what + ": " + error.what());
+      throw InputError(what + place_of_key(error.what(), settings, overrides) + ": " +
+                       error.what());
     }
 
     std::string opening(const std::string &file)
@@ -266,8 +317,11 @@ namespace plumbline::scene
       for (const double value : values)
         all += (all.empty() ? "" : ", ") + base::to_text(value, 17);
       const std::string file = (std::filesystem::path(scene.folder) / scene.name).string();
-      Scene anew = build(file + ".prm", opening(scene.name), read_settings(file, scene.text, ""),
-                         {{"Random/values", all}}, scene.random.source);
+      std::vector<Setting> settings = read_settings(file, scene.text, "");
+      for (Setting &one : settings)
+        one.place.clear(); // lines of the text are not those of the file
+      Scene anew = build(file + ".prm", opening(scene.name), settings, {{"Random/values", all}},
+                         scene.random.source);
       anew.study = scene.study; // fewer levels, perhaps
       scene = std::move(anew);
     }
@@ -357,6 +411,11 @@ namespace plumbline::scene
       if (is_pipe && base::Communicator::all().n_ranks() > 1)
         throw InputError(what +
                          " is a pipe, which only one of several ranks can read; give a file");
+      std::error_code error;
+      if (!std::filesystem::exists(file, error))
+        throw InputError(what + " is not there: no such file in '" +
+                         std::filesystem::absolute(file).parent_path().lexically_normal().string() +
+                         "'; give a .prm or .json file");
       const std::string text = base::read_text_file(file, what, most_bytes, "a .prm or .json file");
       const bool is_json = is_pipe ? text.find_first_not_of(" \t\r\n") == text.find('{')
                                    : base::has_ending(file, ".json");
@@ -367,7 +426,22 @@ namespace plumbline::scene
   Scene read_scene(const std::string &file, const std::vector<Override> &overrides)
   {
     const std::string what = opening(file);
-    return checked(build(place_of(file), what, settings_of_file(file), overrides), what);
+    const std::vector<Setting> settings = settings_of_file(file);
+    return checked(build(place_of(file), what, settings, overrides), what, settings, overrides);
+  }
+
+  std::string with_place(const std::string &message, const std::string &file,
+                         const std::vector<Override> &overrides)
+  try
+  {
+    if (is_read_once(file))
+      return message;
+    const std::string place = place_of_key(message, settings_of_file(file), overrides);
+    return place.empty() ? message : opening(file) + place + ": " + message;
+  }
+  catch (const InputError &) // the file is no longer what it was
+  {
+    return message;
   }
 
   std::string value_of_key(const std::string &file, const std::vector<Override> &overrides,
@@ -394,8 +468,9 @@ namespace plumbline::scene
                     const std::vector<Override> &overrides)
   {
     base::check_text(text, opening(name));
-    return checked(build(name, opening(name), read_settings(name, text, opening(name)), overrides),
-                   opening(name));
+    const std::string what = opening(name);
+    const std::vector<Setting> settings = read_settings(name, text, what);
+    return checked(build(name, what, settings, overrides), what, settings, overrides);
   }
 
   namespace

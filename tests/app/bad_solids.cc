@@ -6,7 +6,8 @@ namespace
 {
   using namespace plumbline::app;
 
-  /// Of the unit square with u given around it, and nodes at the centres of its 4 × 4 cells.
+  /// A scene of the unit square with u given around it, and nodes at the centres of its 4 × 4
+  /// cells.
   class BadSolids : public Refusals
   {
   protected:
@@ -23,7 +24,7 @@ namespace
     }
   };
 
-  /// Of a bar that is constrained on the left and pulled on the right.
+  /// A scene of a bar that is constrained on the left and pulled on the right.
   class BadBodies : public Refusals
   {
   protected:
@@ -77,9 +78,12 @@ TEST_F(BadSolids, constants_of_no_solid_are_refused)
        {variational("1", "-8"), {"Material/k and l: the shear constant l = -8", "be positive"}},
        {no_E, {"Material/model = LPS needs one pair of constants: E and nu, lambda and mu, or k"}},
        {set("Material/model", "bond-based"),
-        {"Material/nu = 0.3: forces along bonds alone make a solid of nu = 1/4 (1/3 in plane "
-         "stress)",
-         "clear Material/nu, or choose Material/model = LPS"}},
+        {"Material/nu = 0.3: forces along bonds alone make a solid of nu = 1/4 in plane strain "
+         "(1/3 "
+         "in plane stress)",
+         "write Material/nu = 0.25 or leave it empty",
+         "Material/model = LPS, which 'plumbline run' and, for quasi-static fracture, 'plumbline "
+         "grow' support, and 'plumbline crack' does not"}},
        {set("Material/model", "bond-based") + set("Material/nu", "") +
             set("Kernel/limit", "-Laplace"),
         {"Material/E = 1 is for bond tensors", "write Kernel/type = bond-tensor"}},

@@ -240,8 +240,8 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   const std::string said = read(err);
-  expect_found(said, "\ninterrupted: finishing the current solve");
-  EXPECT_LT(said.find("press Ctrl-C again"), said.find("the same command continues"));
+  expect_found(said, "\ninterrupted: ends after the current solve");
+  EXPECT_LT(said.find("Ctrl-C again: ends now"), said.find("the same command continues"));
   fs::remove(err);
   expect_found(read(folder / "results.json"), "\"is_complete\": false");
   EXPECT_TRUE(fs::exists(folder / "report.html"));

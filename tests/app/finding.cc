@@ -138,7 +138,77 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
       0);
   expect_found(run("new " + cube + "_k --kind variational --domain cube").err, "write constrained");
   expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
+  expect_found(run("new " + name.string() + "2 --domain no.stl").err, "a mesh file .geo or .msh");
+  expect_found(run("new " + name.string() + "2 --kind variational --domain no.geo").err,
+               "is a bar");
+  expect_found(run("new " + name.string() + "2 --methods 'FA; Q1'").err,
+               "no scene is written: Methods/names: method 'FA; Q1' is not known");
+  expect_found(run("new " + name.string() + "2 --kind crack --methods Q1").err,
+               "no scene is written: Methods/names = 'Q1' is not a meshfree rule");
+  EXPECT_FALSE(fs::exists(name.string() + "2.prm"));
   expect_found(run("new " + name.string() + "2 --kind fluid").err, "model 'fluid' is not known");
+}
+
+TEST(Finding, new_takes_dimension_sizes_and_cells_from_a_mesh_file)
+{
+  const auto made = [](const std::string &file)
+  {
+    const std::string name = temporary("new_mesh").string();
+    fs::remove(name + ".prm");
+    const Outcome outcome = run("new " + name + " --domain " + file);
+    EXPECT_EQ(outcome.exit_code, 0) << file << outcome.err;
+    EXPECT_EQ(run("run " + name + ".prm --levels 1 --quiet -o " + name + "_out").exit_code, 0);
+    return outcome.out + read(name + ".prm");
+  };
+  const std::string meshes = std::string(PLUMBLINE_SCENES) + "/";
+  const std::string disk = made(meshes + "meshes/disk.geo");
+  expect_found(disk, "triangles, physical surfaces omega, collar");
+  expect_found(disk, "set Study/h = 0.1, 0.07, 0.05, 0.035\n");
+  const std::string plate = made(meshes + "meshes/plate_with_hole.geo");
+  expect_found(plate, "quadrilaterals");
+  expect_found(plate, "IPA-AC-R2, Q1\n");
+  // two squares of Ω and a layer of width 1 around them, which has no sizes to change
+  const std::string square =
+      write("square.geo",
+            "Point(1) = {0, 0, 0, .5}; Point(2) = {1, 0, 0, .5}; Point(3) = {1, 1, 0, .5};"
+            "Point(4) = {0, 1, 0, .5}; Point(5) = {-1, -1, 0, .5};"
+            "Point(6) = {2, -1, 0, .5}; Point(7) = {2, 2, 0, .5}; Point(8) = {-1, 2, 0, .5};"
+            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};"
+            "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};"
+            "Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8}; Plane Surface(1) = {1};"
+            "Plane Surface(2) = {2, 1}; Physical Surface(\"omega\") = {1};"
+            "Physical Surface(\"collar\") = {2};\n");
+  expect_found(made(square), "is the same at all levels: one level is in the scene");
+}
+
+TEST(Finding, several_words_are_one_phrase)
+{
+  EXPECT_EQ(run("describe plane stress").out, run("describe 'plane stress'").out);
+  EXPECT_EQ(run("moduli --m 3 --state plane-stress").out,
+            run("moduli --m 3 --state 'plane stress'").out);
+  expect_refused("moduli --E 200GPa", "200 GPa are 200e9 in Pa");
+  expect_refused("run " + write("plain.prm", "set Problem/solution = x^2\nset Methods/names = FA\n"
+                                             "set Material/E = 200GPa\n"),
+                 "plain.prm', line 3: Material/E = '200GPa' does not parse: there is a unit");
+}
+
+TEST(Finding, a_scene_that_is_not_there_is_told_with_its_folder_and_similar_names)
+{
+  expect_refused("run no/glas.prm", "no such file in '" + (fs::current_path() / "no").string());
+  expect_refused("run no/glas.prm", "did you mean ");
+  expect_refused("run no/glas.prm", "griffith/glass.prm? 'plumbline list scenes' lists");
+}
+
+TEST(Finding, what_is_wrong_after_the_scene_was_read_is_told_with_its_line)
+{
+  const std::string file = write("late.prm", "set Methods/names = FA\nset Study/h = 0.1, 0.05\n"
+                                             "set Problem/solution = 1/(x-x)\n");
+  expect_refused("run " + file, "late.prm', line 3: Problem/solution = '1/(x-x)' gives inf");
+  expect_refused("run " + file + " --set 'Problem/solution=2/(x-x)'",
+                 "plumbline: Problem/solution = '2/(x-x)' gives inf");
+  expect_refused("run " +
+                     write("early.prm", "set Methods/names = FA\n\nset Problem/solution = q\n"),
+                 "early.prm', line 3: Problem/solution = 'q' does not parse");
 }
 
 TEST(Finding, new_writes_a_crack_in_si_units_that_runs)
@@ -215,7 +285,13 @@ TEST(Finding, what_a_crack_lacks_is_named_at_once)
       "this is missing: Material/E and Material/toughness (G_c), or Material/c and beta");
   expect_refused(glass + "Kernel/limit=-Laplace", "write Kernel/limit = Navier, not -Laplace");
   expect_refused("grow " + bare, "these are missing: Fracture/toughness (G_c)");
-  expect_refused("crack no_such.prm", "scene 'no_such.prm' cannot be read");
+  for (const std::string ratio : {"0.25", "0.35"})
+    expect_refused(
+        glass + "'Material/model=LPS' --set Material/nu=" + ratio,
+        "'plumbline crack' simulates bonds of Material/model = double well, for which nu "
+        "= 1/4 in plane strain; write double well, with Material/nu = 0.25 or empty. For "
+        "another nu, Material/model = LPS is supported by 'plumbline run'");
+  expect_refused("crack no_such.prm", "scene 'no_such.prm' is not there");
 }
 
 TEST(Finding, a_number_of_levels_is_at_least_1)

@@ -310,8 +310,10 @@ TEST(SceneErrors, a_file_that_is_not_there)
   }
   catch (const InputError &error)
   {
-    EXPECT_STREQ(error.what(),
-                 "scene 'no/such/scene.prm' cannot be read; give a .prm or .json file");
+    EXPECT_EQ(std::string(error.what()),
+              "scene 'no/such/scene.prm' is not there: no such file in '" +
+                  (std::filesystem::current_path() / "no/such").string() +
+                  "'; give a .prm or .json file");
   }
 }
 

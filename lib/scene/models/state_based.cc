@@ -200,11 +200,10 @@ namespace plumbline::scene
                   {"Methods/names", "FA, PA-AC, IPA-AC"},
                   {"Methods/nodes", "vertices"},
                   {"Study/regime", "m"},
-                  {"Study/h", "0.05, 0.025, 0.0125"},
-                  {"Study/horizon", "0.05"},
+                  {"Study/h", "1/10, 1/20, 1/30, 1/40"},
+                  {"Study/horizon", "0.2"},
                   {"Study/norms", "averages L2"},
-                  {"Study/decisive error", "averages L2 | reference"},
-                  {"Reference/method", "DGQ0"}}}};
+                  {"Study/decisive error", "averages L2 | own finest level"}}}};
       }
 
       void declare(Keys &keys, MaterialSection &material) const override

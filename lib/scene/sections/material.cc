@@ -95,9 +95,14 @@ namespace plumbline::scene
     const bool is_stress = dimension == 2 && plane == physics::PlaneState::stress;
     const double nu_of_bonds = is_stress ? 1. / 3 : 1. / 4;
     if (!nu.empty() && !(std::abs(value_of("Material/nu", nu) - nu_of_bonds) <= tolerance))
-      throw InputError("Material/nu = " + nu + ": forces along bonds alone make a solid of nu = " +
-                       (is_stress ? "1/3 in plane stress" : "1/4 (1/3 in plane stress)") +
-                       "; clear Material/nu, or choose Material/model = LPS");
+      throw InputError(
+          "Material/nu = " + nu + ": forces along bonds alone make a solid of nu = " +
+          (is_stress        ? "1/3 in plane stress; write Material/nu = 0.3333"
+           : dimension == 2 ? "1/4 in plane strain (1/3 in plane stress); write Material/nu = 0.25"
+                            : "1/4; write Material/nu = 0.25") +
+          " or leave it empty. Another nu needs Material/model = LPS, which 'plumbline "
+          "run' and, for quasi-static fracture, 'plumbline grow' support, and "
+          "'plumbline crack' does not");
     if (dimension == 1)
       return modulus;
     return 3. / 5 *

@@ -95,8 +95,8 @@ namespace plumbline::scene
         "(sample/modes.csv).");
     keys.add(
         "points", points, any_text(),
-        "CSV file with columns x and y (x, y and z in three dimensions, x in one): points in the "
-        "domain at which "
+        "CSV file with columns x and y (x, y and z in three dimensions, x in one), or points "
+        "themselves, '0.1, 0.2 : 0.3, 0.4': points in the domain at which "
         "'run' writes each static solution of Methods/names and of the reference, its error, its "
         "change from the level before and, for Galerkin methods, an estimate of its error "
         "(points/*.csv; no estimate with Reference/estimate = none). The path is relative to the "
