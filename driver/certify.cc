@@ -39,6 +39,7 @@ namespace plumbline::driver
   {
     study::check_certifiable(scene);
     const io::PointValues points(scene);
+    points.require_distinct();
     const study::CertifiedWays ways = study::certified_ways(scene, all_methods(), reference_level);
     study::check_data(scene);
     begin();

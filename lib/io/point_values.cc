@@ -4,10 +4,12 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "geometry/tetrahedral_domain.h"
+#include "physics/expression.h"
 #include "problem/inside.h"
 #include "scene/mesh_in_space.h"
 #include "scene/on_line.h"
 #include "scene/problem.h"
+#include "scene/values.h"
 
 #include <algorithm>
 #include <cctype>
@@ -77,15 +79,32 @@ namespace plumbline::io
     }
   } // namespace
 
+  namespace
+  {
+    /// Numbers and what separates them: no name of a file.
+    bool are_numbers(const std::string &text)
+    {
+      return text.find_first_not_of("0123456789.,:;eE+- ") == std::string::npos &&
+             (text.find_first_of(":;, ") != std::string::npos ||
+              text.find_first_of("123456789") == 0 || text.find_first_of("0.-") == 0);
+    }
+  } // namespace
+
   PointValues::PointValues(const scene::Scene &scene)
   {
     if (scene.output.points.empty())
       return;
-    file_ = (fs::path(scene.folder) / scene.output.points).string();
     key_ = "Output/points = " + scene.output.points + ": ";
     try
     {
-      read(scene.domain.is_in_space() ? 3 : is_on_intervals(scene) ? 1 : 2);
+      const std::size_t dimension = scene.domain.is_in_space() ? 3 : is_on_intervals(scene) ? 1 : 2;
+      if (are_numbers(scene.output.points))
+        read_text(scene.output.points, dimension);
+      else
+      {
+        file_ = (fs::path(scene.folder) / scene.output.points).string();
+        read(dimension);
+      }
     }
     catch (const InputError &error)
     {
@@ -135,6 +154,47 @@ namespace plumbline::io
                        " on each line");
   }
 
+  void PointValues::read_text(const std::string &text, std::size_t dimension)
+  {
+    std::string points = text;
+    std::replace(points.begin(), points.end(), ';', ':');
+    for (const std::string &point : physics::split_outside_brackets(points, ':'))
+    {
+      std::vector<double> x;
+      for (const std::string &number : physics::split_outside_brackets(point, ','))
+        x.push_back(scene::to_number(number));
+      if (x.size() != dimension)
+        throw InputError("the point '" + point + "' has " + std::to_string(x.size()) +
+                         " coordinates, but the scene has " + std::to_string(dimension) +
+                         " dimensions; write points " + axes_text(dimension) +
+                         " separated by ':', or the name of a CSV file");
+      points_.push_back(std::move(x));
+      lines_.push_back(points_.size());
+    }
+  }
+
+  std::string PointValues::place(std::size_t point) const
+  {
+    return (file_.empty() ? "point " : "'" + file_ + "', line ") + std::to_string(lines_[point]);
+  }
+
+  std::string PointValues::coordinates(std::size_t point) const
+  {
+    std::string text;
+    for (const double x : points_[point])
+      text += (text.empty() ? "" : ", ") + base::to_text(x, 6);
+    return "(" + text + ")";
+  }
+
+  void PointValues::require_distinct() const
+  {
+    std::map<std::vector<double>, std::size_t> known;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (const auto [first, is_new] = known.emplace(points_[i], i); !is_new)
+        throw InputError(key_ + place(i) + ": " + coordinates(i) + " is listed twice, first as " +
+                         place(first->second) + "; remove one");
+  }
+
   std::vector<Point<1>> PointValues::of(const problem::Problem<1> &problem) const
   {
     std::vector<Point<1>> points;
@@ -180,11 +240,8 @@ namespace plumbline::io
 
   void PointValues::refuse(std::size_t point) const
   {
-    std::string place;
-    for (const double x : points_[point])
-      place += (place.empty() ? "" : ", ") + base::to_text(x, 6);
-    throw InputError(key_ + "'" + file_ + "', line " + std::to_string(lines_[point]) + ": (" +
-                     place + ") lies outside of the domain; take it out");
+    throw InputError(key_ + place(point) + ": " + coordinates(point) +
+                     " lies outside of the domain; take it out");
   }
 
   std::vector<double> PointValues::values_in(const fs::path &file) const

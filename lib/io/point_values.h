@@ -16,7 +16,7 @@
 
 namespace plumbline::io
 {
-  /// Of files about a case, series and method.
+  /// Stem of the names of files about a case, series and method.
   std::string file_stem(const analysis::Record &run);
 
   /// Values of solutions at the points of Output/points, one CSV file for each solve.
@@ -26,6 +26,9 @@ namespace plumbline::io
     /// @throws InputError  a file that cannot be read; a point outside of the domain of the first
     /// level, by its line
     explicit PointValues(const scene::Scene &scene);
+
+    /// @throws InputError  a point is given twice
+    void require_distinct() const;
 
     bool is_wanted() const { return !points_.empty(); }
 
@@ -53,10 +56,14 @@ namespace plumbline::io
     in_solid(const std::function<bool(const dealii::Point<3> &)> &is_inside) const;
     [[noreturn]] void refuse(std::size_t point) const;
     void read(std::size_t dimension);
+    void read_text(const std::string &text, std::size_t dimension);
+    std::string place(std::size_t point) const; ///< "'points.csv', line 3", or "point 2"
+    std::string coordinates(std::size_t point) const;
     /// u in such a file, shape (n_points, n_components); empty if it has other points.
     std::vector<double> values_in(const std::filesystem::path &file) const;
 
-    std::string file_, key_;                  ///< key_: "Output/points = FILE: ", for messages
+    std::string file_,
+        key_; ///< file_ empty: points are in the scene; key_: "Output/points = FILE: "
     std::vector<std::vector<double>> points_; ///< in the scene's coordinates, one to three of each
     std::vector<std::size_t> lines_;
     /// By case, series and method, and by level: u, shape (n_points, n_components).

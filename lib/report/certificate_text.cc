@@ -191,6 +191,18 @@ namespace plumbline::report
 
   namespace
   {
+    /// Where u jumps, a continuous space has no accuracy.
+    std::string or_discontinuous(const Certificate &certificate)
+    {
+      const std::string &method = certificate.galerkin.method;
+      return method.rfind("DG", 0) == 0 || method.empty()
+                 ? ""
+                 : "; where u may jump, as at the boundary of the domain or with the load, take "
+                   "the "
+                   "discontinuous space, Reference/method = DG" +
+                       method;
+    }
+
     /// Why values are refused.
     std::string reason_of(const Certificate &certificate,
                           const std::vector<const CertifiedValue *> &refused)
@@ -207,14 +219,16 @@ namespace plumbline::report
         return "there is no bound for " + std::to_string(n_without) + of +
                ": changes from level to level do not decrease, or the error of outer "
                "quadrature is not estimated; give finer levels (Study/h), another rule, or "
-               "Quadrature/tolerance > 0";
+               "Quadrature/tolerance > 0" +
+               or_discontinuous(certificate);
       if (n_wrong > 0)
         return "the known solution contradicts " + std::to_string(n_wrong) + of +
                ": they differ by more than the bound; is Problem/solution correct for this load?";
       return certificate.galerkin.method + " and " + certificate.meshfree.method +
              " disagree about " + std::to_string(refused.size()) + of +
              ": they differ by more than both bounds; one of them is wrong, or its levels are "
-             "too coarse for its bound";
+             "too coarse for its bound" +
+             or_discontinuous(certificate);
     }
 
     /// A certificate of no digits says nothing.
@@ -228,7 +242,8 @@ namespace plumbline::report
              "u, " +
              text(certificate.size) + "; " +
              (is_galerkin ? "give a finer mesh (--reference-level, Study/h) or a higher degree"
-                          : "give finer levels (Study/h) or another rule");
+                          : "give finer levels (Study/h) or another rule") +
+             or_discontinuous(certificate);
     }
   } // namespace
 

@@ -24,6 +24,27 @@ namespace plumbline::study
       return text;
     }
 
+    /// Appended to what was found where --levels left the finest levels of a series out: no method
+    /// has a record of the last one.
+    std::string left_out(const scene::Scene &scene, const StudyResults &results,
+                         const std::string &series)
+    {
+      for (const auto &one : scene.study.series)
+      {
+        if (one.name != series)
+          continue;
+        std::size_t n_run = 0;
+        for (const Record &record : results.records)
+          if (record.key.series == series)
+            n_run = std::max<std::size_t>(n_run, record.key.level + 1);
+        if (n_run < one.levels.size())
+          return " (needs all " + std::to_string(one.levels.size()) +
+                 " levels: " + std::to_string(one.levels.size() - n_run) +
+                 " were left out, as by --levels; run without it)";
+      }
+      return "";
+    }
+
     using Check = std::function<Expectation(const scene::Expected &, const Trend &)>;
 
     void check_all(const scene::Scene &scene, scene::ExpectedKind kind, StudyResults &results,
@@ -43,6 +64,8 @@ namespace plumbline::study
             continue;
           is_found = true;
           Expectation result = check(expected, trend);
+          if (!result.holds)
+            result.found += left_out(scene, results, trend.series);
           result.subject = trend.method + ", " + trend.problem + ", " + trend.series + ": " + what;
           results.expectations.push_back(result);
         }

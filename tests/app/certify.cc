@@ -187,7 +187,8 @@ TEST(Certify, refuses_scenes_that_are_none)
   const Outcome twice = run("certify " + scene + " --set Output/points=" +
                             write("twice_there.csv", "x,y\n.5,.5\n.1,.2\n.5,.5\n"));
   EXPECT_EQ(twice.exit_code, 2) << twice.err;
-  expect_found(twice.err, "(0.5, 0.5) is listed twice");
+  expect_found(twice.err, "line 4: (0.5, 0.5) is listed twice, first as '");
+  EXPECT_EQ(twice.err.find("%"), std::string::npos) << "it had begun to solve: " << twice.err;
   const Outcome zero = run("certify " + scene + " --set 'Problem/solution=0*x'");
   EXPECT_EQ(zero.exit_code, 3) << zero.err;
   expect_found(zero.err, "u is 0 at all points");

@@ -236,3 +236,19 @@ TEST(Points, need_a_file_with_points)
   expect_refused("run " + scene_at(write("none.csv", "x,y\n")), "has no points");
   expect_refused("run " + scene_at(write("words.csv", "x,y\n0.5,here\n")), "line 2");
 }
+
+TEST(Points, may_be_written_in_the_scene)
+{
+  const fs::path folder = temporary("points_inline");
+  const std::string more = " --set 'Output/points=0.31, 0.73 : 0.5, 0.1' --methods FA --levels 1";
+  const Outcome outcome =
+      run("run --quiet " + scene_at("none.csv") + more + " -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(table(folder / "points" / "u_m___3_FA_level1.csv").at("y"),
+            (std::vector<double>{.73, .1}));
+  fs::remove_all(folder);
+  const auto refused = [](const std::string &points, const std::string &message)
+  { expect_refused("run " + scene_at(points), message); };
+  refused("0.5, 0.1 : 7, 7", "point 2: (7, 7) lies outside of the domain");
+  refused("0.5, 0.1 : 0.2", "the point '0.2' has 1 coordinates, but the scene has 2 dimensions");
+}

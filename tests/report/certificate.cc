@@ -25,6 +25,23 @@ namespace plumbline::report
     }
   } // namespace
 
+  TEST(CertificateText, NamesTheDiscontinuousSpaceWhereUMayJump)
+  {
+    study::Certificate certificate;
+    certificate.galerkin.method = "Q1";
+    certificate.meshfree.method = "FA";
+    study::CertifiedValue value;
+    value.x = {.5, .5};
+    value.value = {1};
+    value.other = {2};
+    value.bound = value.other_bound = 1e-3;
+    certificate.points = {value};
+    const std::string remedy = "Reference/method = DGQ1";
+    EXPECT_NE(certificate_refusal(certificate).find(remedy), std::string::npos);
+    certificate.galerkin.method = "DGQ1";
+    EXPECT_EQ(certificate_refusal(certificate).find("discontinuous"), std::string::npos);
+  }
+
   TEST(CertificateTable, PrintsPlacesWithDigitsThatTellThemApart)
   {
     EXPECT_EQ(places({.25, 1. / 3}), (std::vector<std::string>{"0.25", "0.3333"}));

@@ -232,6 +232,23 @@ TEST(Conclusions, an_expected_fall_is_at_every_level)
   EXPECT_FALSE(holds(" set monotone = A: yes", {1e-2, 1e-3, 1.1e-3, 1e-4}));
 }
 
+TEST(Conclusions, an_expectation_that_levels_are_missing_for_says_so)
+{
+  const auto found = [](const std::vector<double> &errors)
+  {
+    const auto scene = make_scene(against_exact, " set verdicts = A: AC");
+    StudyResults results = make_results(scene);
+    add_runs(results, "A", errors);
+    conclude(scene, results);
+    EXPECT_FALSE(results.expectations.front().holds);
+    return results.expectations.front().found;
+  };
+  const std::string told = "were left out, as by --levels";
+  EXPECT_NE(found({1e-1, 5e-2}).find(told), std::string::npos) << found({1e-1, 5e-2});
+  const std::vector<double> stalls = {1e-1, 1e-1, 1e-1, 1e-1};
+  EXPECT_EQ(found(stalls).find(told), std::string::npos) << found(stalls);
+}
+
 TEST(Conclusions, an_expectation_of_what_was_not_run_does_not_hold)
 {
   EXPECT_FALSE(holds(" set verdicts = C: AC", second_order));
