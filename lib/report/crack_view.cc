@@ -24,7 +24,9 @@ namespace plumbline::report
            {"speed", "of the tip [length/time]; in SI units m/s"},
            {"speed / c_R",
             "relative to the Rayleigh wave speed, by a line fitted from 1/5 to 4/5 of the advance"},
-           {"fastest / c_R", "maximum over any tenth of the time for which the tip moves"},
+           {"fastest / c_R",
+            "largest mean speed over a window of a tenth of the time for which the tip moves"},
+           {"speed window", "length of this window [time]"},
            {"c_R", "Rayleigh wave speed, the theoretical limit of a mode-I crack [length/time]"},
            {"c_T", "shear wave speed [length/time]"},
            {"strained W H / G_c,h",
@@ -85,7 +87,8 @@ namespace plumbline::report
         text += record["speed"] > 0
                     ? "; its mean speed is " + rounded(record["speed"]) + " [length/time], " +
                           rounded(record["speed / c_R"]) + " of the Rayleigh wave speed, at most " +
-                          rounded(record["fastest / c_R"])
+                          rounded(record["fastest / c_R"]) +
+                          " over a tenth of the time for which it moves"
                     : ", at an unknown speed: too few tip positions were sampled for a fit";
       text += "; the solution is " + (record["asymmetry"] == 0
                                           ? std::string("symmetric to the last bit")
@@ -122,23 +125,24 @@ namespace plumbline::report
       return chart;
     }
 
-    DataChart speed_chart(const Record &record, const analysis::Curve &samples)
+    /// Its largest value is "fastest / c_R".
+    DataChart speed_chart(const Record &record)
     {
-      DataChart chart =
-          linear_chart("speed", "Crack speed", "t [time]", "tip speed / Rayleigh wave speed [1]",
-                       "Mean over a twentieth of the simulated time.");
-      const std::vector<double> &t = samples[0].values, &x = samples[1].values;
-      const std::size_t window = std::max<std::size_t>(1, (t.size() - 1) / 20);
+      DataChart chart = linear_chart(
+          "speed", "Crack speed", "t [time]", "tip speed / Rayleigh wave speed [1]",
+          "Mean over a window of " + rounded(record["speed window"]) +
+              " [time], a tenth of the time for which the tip moves, up to the end of the strip.");
+      const analysis::Curve &speeds = record.curves.at("tip speed");
       std::vector<Vertex> speed;
       chart.data.columns = {"t [time]", "tip speed / Rayleigh wave speed [1]"};
-      for (std::size_t i = window; i < t.size(); ++i)
+      for (std::size_t i = 0; i < speeds[0].values.size(); ++i)
       {
-        speed.push_back({.5 * (t[i] + t[i - window]),
-                         (x[i] - x[i - window]) / (t[i] - t[i - window]) / record["c_R"]});
+        speed.push_back({speeds[0].values[i], speeds[1].values[i]});
         chart.data.rows.push_back({number_cell(speed.back().x), number_cell(speed.back().y)});
       }
+      const double end = record.curves.at("samples")[0].values.back();
       chart.plot.lines = {long_line("crack tip", 0, std::move(speed)),
-                          dashed_line("Rayleigh waves", 1, {{0, 1}, {t.back(), 1}})};
+                          dashed_line("Rayleigh waves", 1, {{0, 1}, {end, 1}})};
       fit_y(chart.plot);
       return chart;
     }
@@ -207,12 +211,11 @@ namespace plumbline::report
                   "crack " + outcome_of(record)};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});
     const analysis::Curve &samples = record.curves.at("samples");
-    view.galleries = {
-        {"picture",
-         "Results",
-         "",
-         {tip_chart(record, samples), speed_chart(record, samples), energy_chart(samples)},
-         {moments(record)}}};
+    view.galleries = {{"picture",
+                       "Results",
+                       "",
+                       {tip_chart(record, samples), speed_chart(record), energy_chart(samples)},
+                       {moments(record)}}};
     view.tables = {{"samples", table_of(samples)}};
     return view;
   }

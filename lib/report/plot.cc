@@ -1,5 +1,6 @@
 #include "report/plot.h"
 
+#include "base/number_text.h"
 #include "report/formats.h"
 
 #include <algorithm>
@@ -52,8 +53,77 @@ namespace plumbline::report
                                             std::ceil(std::log10(largest / step)), 0., most)));
     }
 
+    /// Width of a text of 14 pixels in a wide font; in a narrower one there is room to spare.
+    /// [pixel]
+    double width_of(const std::string &utf8)
+    {
+      constexpr double wide = 10.2, usual = 8.4;
+      double width = 0;
+      for (const char c : utf8)
+        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) // the first byte of a character
+          width += (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? wide : usual;
+      return width;
+    }
+
+    constexpr double picture_width = 820, widest_left = 140; ///< [pixel]
+
+    double legend_width(const Plot &plot)
+    {
+      double longest = width_of(plot.frontier_label);
+      for (const Line &one : plot.lines)
+        longest = std::max(longest, width_of(one.label));
+      return std::min(.5 * picture_width, 56 + longest);
+    }
+
+    /// Steps of a linear x axis whose figures do not touch: 1, 2 or 5 times a power of ten.
+    double step_of_figures(const Range &range, double width)
+    {
+      constexpr double most = 10, gap = 18;
+      const double length = range.high - range.low;
+      const int digits = digits_of_steps(range);
+      double step = 0;
+      for (double power = std::pow(10., std::floor(std::log10(length / most))); step == 0;
+           power *= 10)
+        for (const double factor : {1., 2., 5.})
+        {
+          const double one = factor * power;
+          double longest = 0;
+          for (double tick = std::ceil(range.low / one); tick * one <= range.high; ++tick)
+            longest = std::max(longest, width_of(base::to_text(tick * one, digits)));
+          if (step == 0 && length / one <= most && (longest + gap) * length / one <= width)
+            step = one;
+        }
+      return step;
+    }
+
+    /// Size, margins and legend: every method has a line of the one column of the legend.
+    /// @param y_digits  of figures at its steps
+    std::string frame(const Plot &plot, int y_digits)
+    {
+      // In pixels; a line of the legend is this high.
+      constexpr double width = picture_width, line = 23.5, figure = 10, left = 100,
+                       left_of_many = 114;
+      const int n_more = y_digits - usual_digits;
+      const auto n = 1 + std::count_if(plot.lines.begin(), plot.lines.end(),
+                                       [](const Line &one) { return !one.label.empty(); });
+      const double height = std::max(480., 112 + line * static_cast<double>(n));
+      const double legend = legend_width(plot);
+      std::ostringstream out;
+      out << "set terminal svg size " << width << "," << height
+          << " dynamic enhanced font 'sans-serif,14' background '#ffffff'\n"
+          << "set lmargin at screen "
+          << (n_more > 0 ? left_of_many + figure * n_more : left) / width
+          << "\nset rmargin at screen " << 1 - (legend + 14) / width << "\nset bmargin at screen "
+          << 62 / height << "\nset tmargin at screen " << 1 - 40 / height << "\nset key at screen "
+          << 1 - legend / width << ", screen " << 1 - 36 / height
+          << " left top Left reverse samplen 2.4 spacing 1.1 maxcols 1 noenhanced\n";
+      return out.str();
+    }
+
     /// Powers of ten, or linear steps; every level of h where there are few.
-    std::string axis(char name, const Range &range, bool is_log, const std::vector<double> &ticks)
+    /// @param width  of a linear axis whose figures are side by side [pixel]; 0: one above another
+    std::string axis(char name, const Range &range, bool is_log, const std::vector<double> &ticks,
+                     double width)
     {
       std::ostringstream out;
       if (!ticks.empty())
@@ -75,7 +145,7 @@ namespace plumbline::report
       {
         const double first = std::ceil(std::log10(range.low) - 1e-9);
         if (std::pow(10., first) > range.high) // no power of ten inside: one figure in the middle
-          return axis(name, range, is_log, {std::sqrt(range.low * range.high)});
+          return axis(name, range, is_log, {std::sqrt(range.low * range.high)}, width);
         const int decades = static_cast<int>(std::ceil(std::log10(range.high / range.low)));
         const int step = (decades + 7) / 8; // eight figures along an axis are enough
         // From a power of ten inside, so that a strip below the range has no figures.
@@ -84,48 +154,9 @@ namespace plumbline::report
         out << (step == 1 ? "set m" : "unset m") << name << "tics\n";
       }
       else
-        out << "set " << name << "tics nomirror autofreq\nset format " << name << " '%."
-            << digits_of_steps(range) << "g'\nunset m" << name << "tics\n";
-      return out.str();
-    }
-
-    /// Of a text of 14 pixels in a wide font; in a narrower one there is room to spare.
-    double width_of(const std::string &utf8)
-    {
-      constexpr double wide = 10.2, usual = 8.4;
-      double width = 0;
-      for (const char c : utf8)
-        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) // the first byte of a character
-          width += (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? wide : usual;
-      return width;
-    }
-
-    /// Size, margins and legend: every method has a line of the one column of the legend.
-    /// @param y_digits  of figures at its steps
-    std::string frame(const Plot &plot, int y_digits)
-    {
-      // In pixels; a line of the legend is this high.
-      constexpr double width = 820, line = 23.5, figure = 10, left = 100, left_of_many = 114;
-      const int n_more = y_digits - usual_digits;
-      double longest = width_of(plot.frontier_label);
-      std::size_t n = 1;
-      for (const Line &one : plot.lines)
-        if (!one.label.empty())
-        {
-          longest = std::max(longest, width_of(one.label));
-          ++n;
-        }
-      const double height = std::max(480., 112 + line * static_cast<double>(n));
-      const double legend = std::min(.5 * width, 56 + longest);
-      std::ostringstream out;
-      out << "set terminal svg size " << width << "," << height
-          << " dynamic enhanced font 'sans-serif,14' background '#ffffff'\n"
-          << "set lmargin at screen "
-          << (n_more > 0 ? left_of_many + figure * n_more : left) / width
-          << "\nset rmargin at screen " << 1 - (legend + 14) / width << "\nset bmargin at screen "
-          << 62 / height << "\nset tmargin at screen " << 1 - 40 / height << "\nset key at screen "
-          << 1 - legend / width << ", screen " << 1 - 36 / height
-          << " left top Left reverse samplen 2.4 spacing 1.1 maxcols 1 noenhanced\n";
+        out << "set " << name << "tics nomirror "
+            << (width > 0 ? exact(step_of_figures(range, width)) : "autofreq") << "\nset format "
+            << name << " '%." << digits_of_steps(range) << "g'\nunset m" << name << "tics\n";
       return out.str();
     }
 
@@ -238,7 +269,9 @@ namespace plumbline::report
           << "set ylabel " << quote_gnuplot(plot.y_label) << " noenhanced\n"
           << "set xrange [" << exact(view.x.low) << ":" << exact(view.x.high) << "]\nset yrange ["
           << exact(view.strip.range.low) << ":" << exact(view.y.high) << "]\n"
-          << axis('x', view.x, plot.is_x_log, view.x_ticks) << axis('y', view.y, plot.is_y_log, {});
+          << axis('x', view.x, plot.is_x_log, view.x_ticks,
+                  picture_width - widest_left - legend_width(plot))
+          << axis('y', view.y, plot.is_y_log, {}, 0);
       return out.str();
     }
 

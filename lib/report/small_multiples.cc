@@ -1,5 +1,6 @@
 #include "report/small_multiples.h"
 
+#include "base/number_text.h"
 #include "report/formats.h"
 #include "report/plot.h"
 
@@ -11,7 +12,7 @@ namespace plumbline::report
 {
   namespace
   {
-    constexpr double width = 820, left = 74, right = 136, top = 52, bottom = 86;
+    constexpr double width = 820, right = 136, top = 52, bottom = 86;
     constexpr double column_gap = 24, row_gap = 34, tallest = 380, head = 18;
 
     /// 1, 2 or 5 times a power of ten: two or three steps in the interval.
@@ -24,6 +25,17 @@ namespace plumbline::report
           return factor * power;
       return 10 * power;
     }
+
+    /// For the widest figure of the y axis, at its steps, and the label beside it.
+    double left_margin(double low, double high)
+    {
+      constexpr double usual = 74, of_label = 46, character = 8;
+      const double step = tick_step(low, high);
+      std::size_t longest = 0;
+      for (double tick = std::ceil(low / step); tick * step <= high; ++tick)
+        longest = std::max(longest, base::to_text(tick * step, 6).size());
+      return std::max(usual, of_label + character * static_cast<double>(longest));
+    }
   } // namespace
 
   const char *const viridis = "0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
@@ -32,11 +44,12 @@ namespace plumbline::report
   SmallMultiples::SmallMultiples(std::size_t n, std::size_t n_columns,
                                  const std::array<double, 2> &lower,
                                  const std::array<double, 2> &upper)
-      : n_(n), n_columns_(n_columns), lower_(lower), upper_(upper)
+      : n_(n), n_columns_(n_columns), lower_(lower), upper_(upper),
+        left_(left_margin(lower[1], upper[1]))
   {
     const double aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
     const auto columns = static_cast<double>(n_columns);
-    panel_width_ = (width - left - right - (columns - 1) * column_gap) / columns;
+    panel_width_ = (width - left_ - right - (columns - 1) * column_gap) / columns;
     panel_height_ = aspect * panel_width_;
     if (panel_height_ > tallest)
     {
@@ -49,7 +62,7 @@ namespace plumbline::report
 
   double SmallMultiples::x(std::size_t i) const
   {
-    return left + static_cast<double>(i % n_columns_) * (panel_width_ + column_gap);
+    return left_ + static_cast<double>(i % n_columns_) * (panel_width_ + column_gap);
   }
 
   double SmallMultiples::y(std::size_t i) const
@@ -81,7 +94,7 @@ namespace plumbline::report
         << across(x(n_columns_ - 1) + panel_width_ + 22) << ", screen "
         << up(top + head + bar_height) << " size screen " << across(14) << ", screen "
         << bar_height / height_ << " noborder\nset label 1 " << quote_gnuplot(title)
-        << " at screen " << across(left) << ", screen " << up(22)
+        << " at screen " << across(left_) << ", screen " << up(22)
         << " left noenhanced font ',15'\n";
     return out.str();
   }
@@ -92,7 +105,8 @@ namespace plumbline::report
     out << "set " << name << "range [" << exact(lower_[d]) << ":" << exact(upper_[d]) << "]\nset "
         << name << "tics nomirror " << exact(tick_step(lower_[d], upper_[d])) << "\nset format "
         << name << " '" << (has_figures ? "%g" : "") << "'\nset " << name << "label '"
-        << (has_figures ? std::string(1, name) + " [length]" : "") << "'\n";
+        << (has_figures ? std::string(1, name) + " [length]" : "") << "'"
+        << (name == 'y' ? " offset 1.5,0" : "") << "\n"; // off the picture's edge
     return out.str();
   }
 

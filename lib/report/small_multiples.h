@@ -39,6 +39,7 @@ namespace plumbline::report
 
     std::size_t n_, n_columns_;
     std::array<double, 2> lower_, upper_;
+    double left_; ///< margin for the figures of the y axis and its label [pixel]
     double panel_width_, panel_height_, height_;
   };
 } // namespace plumbline::report

@@ -295,8 +295,12 @@ namespace plumbline::study
       motion.speed = fitted_speed(samples, way);
     const std::size_t window = std::max<std::size_t>(1, samples_in_motion(samples) / 10);
     for (std::size_t i = window; i < samples.size(); ++i)
-      motion.fastest = std::max(motion.fastest, (samples[i].tip - samples[i - window].tip) /
-                                                    (samples[i].t - samples[i - window].t));
+    {
+      const CrackSample &from = samples[i - window], &to = samples[i];
+      motion.window = to.t - from.t;
+      motion.speeds.push_back({.5 * (from.t + to.t), (to.tip - from.tip) / motion.window});
+      motion.fastest = std::max(motion.fastest, motion.speeds.back()[1]);
+    }
     judge_motion(all, samples, scales, motion);
     return motion;
   }

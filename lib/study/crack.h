@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "study/analysis.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -90,7 +91,11 @@ namespace plumbline::study
   {
     double advance = 0; ///< from the notch's tip to the end
     double speed = 0;   ///< of the line fitted to its tip, if it has gone a horizon; see below
-    double fastest = 0; ///< over any tenth of the time for which the tip moves
+    double fastest = 0; ///< the largest of `speeds`
+    /// Mean speeds of the tip over windows of a tenth of the time for which it moves, before it
+    /// comes to the strip's end: the window's middle [time] and the speed [length/time].
+    std::vector<std::array<double, 2>> speeds;
+    double window = 0; ///< their length [time]
     scene::CrackOutcome outcome = scene::CrackOutcome::unknown;
     std::string reason;         ///< of the outcome, one sentence with the numbers
     double energy_drift = 0;    ///< max |kinetic + bonds + dissipated - start| / start

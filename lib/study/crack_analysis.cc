@@ -202,6 +202,12 @@ namespace plumbline::study
       record.set("speed", motion.speed, "length/time");
       record.set("speed / c_R", motion.speed / rayleigh_speed);
       record.set("fastest / c_R", motion.fastest / rayleigh_speed);
+      record.set("speed window", motion.window, "time");
+      analysis::Curve speeds = curve_of({"t", "tip speed / c_R"});
+      speeds[0].unit = "time";
+      for (const auto &[t, speed] : motion.speeds)
+        add_row(speeds, {t, speed / rayleigh_speed});
+      record.curves["tip speed"] = std::move(speeds);
       record.set("c_R", rayleigh_speed, "length/time");
       record.set("soft energy / G_c,h", motion.soft_per_length / lattice_toughness);
       record.set("energy drift", motion.energy_drift);

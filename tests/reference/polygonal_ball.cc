@@ -1,4 +1,4 @@
-// Polygons in place of balls: entries, the size of the error, and what is refused.
+// Polygonal approximation of the ball: entries, the size of the error, and what is refused.
 #include "reference/lattice/polygonal_ball.h"
 
 #include "analysis/statics.h"

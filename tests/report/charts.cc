@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "report/maps.h"
+#include "report/small_multiples.h"
 #include "tests/report/fixture.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 
 namespace plumbline::report
 {
@@ -417,6 +419,36 @@ namespace plumbline::report
       return std::stod(text.substr(text.find(head) + head.size()));
     };
     EXPECT_GT(margin({2.41992, 2.41994}), margin({0, 1}));
+  }
+
+  TEST(ReportCharts, HaveFiguresOfTheAbscissaThatDoNotTouch)
+  {
+    for (const double end : {8.3e-6, 1., 12345., 2.5e-3})
+    {
+      Plot plot;
+      plot.is_x_log = plot.is_y_log = false;
+      plot.lines.push_back({"crack tip", style_of(0, false), 1.8, {{0, 0}, {end, 1}}});
+      const std::string text = gnuplot_script({plot}), head = "set xtics nomirror ";
+      ASSERT_TRUE(holds(text, head)) << text;
+      const double step = std::stod(text.substr(text.find(head) + head.size())),
+                   n = std::floor(end / step), pixels = 420, character = 8.4;
+      EXPECT_GE(n, 2) << end;
+      std::ostringstream figure;
+      figure << 2 * step;
+      EXPECT_LT(static_cast<double>(figure.str().size()) * character, pixels / n) << end;
+    }
+  }
+
+  TEST(ReportCharts, HaveRoomForTheFiguresOfSmallLengths)
+  {
+    const auto margin = [](double size)
+    {
+      const SmallMultiples panels(1, 1, {-size, -size}, {size, size});
+      const std::string text = panels.panel(0, ""), head = "lmargin at screen ";
+      return 820 * std::stod(text.substr(text.find(head) + head.size()));
+    };
+    EXPECT_NEAR(margin(1), 74, 1e-3);
+    EXPECT_GT(margin(5e-3), margin(1)); // -0.005 is wider than -1
   }
 
   TEST(ReportCharts, HaveRangesWithTwoPowersOfTen)

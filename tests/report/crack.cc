@@ -21,6 +21,7 @@ namespace plumbline::report
       record.set("speed", .5, "length/time");
       record.set("speed / c_R", .625);
       record.set("fastest / c_R", .75);
+      record.set("speed window", .2, "time");
       record.set("c_R", .8, "length/time");
       record.set("notch tip", 1, "length");
       record.set("asymmetry", 0);
@@ -28,6 +29,7 @@ namespace plumbline::report
                                   {"kinetic", "", {0, 1, 2}},    {"bonds", "", {9, 7, 5}},
                                   {"soft bonds", "", {0, 1, 2}}, {"dissipated", "", {0, 1, 2}},
                                   {"branches", "", {1, 1, 1}}};
+      record.curves["tip speed"] = {{"t", "time", {.5, 1.5}}, {"tip speed / c_R", "", {.5, .75}}};
       record.curves["moments"] = {{"t", "time", {0}}};
       record.fields["damage"] = {1, {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .75}}, {0, 0, 0, 0}};
       study::StudyResults results;
@@ -42,7 +44,8 @@ namespace plumbline::report
     EXPECT_EQ(crack_view(moved(scene::CrackOutcome::runs)).answer,
               "At 2 times its threshold the crack runs; its mean speed is 0.5 [length/time], 0.625 "
               "of the "
-              "Rayleigh wave speed, at most 0.75; the solution is symmetric to the last bit. This "
+              "Rayleigh wave speed, at most 0.75 over a tenth of the time for which it moves; the "
+              "solution is symmetric to the last bit. This "
               "rests on one "
               "mesh size, h = 0.5: run with another Study/h to see how it depends on h.");
     EXPECT_EQ(
@@ -60,6 +63,16 @@ namespace plumbline::report
     const std::string answer = crack_view(results).answer;
     EXPECT_NE(answer.find("This is the result at h = 0.5."), std::string::npos) << answer;
     EXPECT_EQ(answer.find("one mesh size"), std::string::npos) << answer;
+  }
+
+  TEST(CrackReport, DrawsTheSpeedWhoseMaximumItsTextGives)
+  {
+    const auto results = moved(scene::CrackOutcome::runs);
+    const DataChart chart = crack_view(results).galleries.at(0).charts.at(1);
+    double largest = 0;
+    for (const Vertex &one : chart.plot.lines.front().points)
+      largest = std::max(largest, one.y);
+    EXPECT_EQ(largest, results.records.front()["fastest / c_R"]);
   }
 
   TEST(CrackReport, HasUnitsOnTheAxesOfItsCharts)

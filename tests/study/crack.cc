@@ -223,6 +223,11 @@ TEST(Crack, has_its_largest_speed_over_tenths_of_its_motion_however_long_it_is_w
   EXPECT_GT(motion.speed, .7);
   EXPECT_GT(motion.fastest, motion.speed);
   EXPECT_DOUBLE_EQ(motion.fastest, described(tip, one, 30).fastest);
+  double largest = 0;
+  for (const auto &[t, speed] : motion.speeds)
+    largest = std::max(largest, speed);
+  EXPECT_EQ(largest, motion.fastest);
+  EXPECT_NEAR(motion.window, 1.2, .3); // of 12
 }
 
 TEST(Crack, branches_only_where_two_tips_go_on_side_by_side)
