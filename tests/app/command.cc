@@ -257,6 +257,33 @@ TEST(Command, an_interrupted_run_keeps_what_is_finished_and_goes_on)
   EXPECT_FALSE(fs::exists(folder / "results.jsonl"));
 }
 
+TEST(Command, interrupted_twice_ends_at_once_and_keeps_what_is_finished)
+{
+  const fs::path folder = temporary("interrupted_twice"), err = temporary("interrupted_twice_err");
+  const std::string file =
+      write("long.prm", "set Problem/solution = x^3 + y^2\nset Methods/names = "
+                        "DGQ2\nset Study/h = 0.1, 0.00125\n");
+  const pid_t child = start("run " + file + " -o " + folder.string(), err.string());
+  for (int i = 0; i < 6000 && !fs::exists(folder / "results.jsonl"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (const int signal : {SIGINT, SIGTERM}) // the second solve takes half a minute
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    kill(child, signal);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  const std::string said = read(err);
+  expect_found(said, "Ctrl-C again: ends now, finished results are kept");
+  expect_found(said, "interrupted again: ended at once; what was finished before is kept");
+  fs::remove(err);
+  const Outcome outcome = run("report " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(read(folder / "results.json"), "DGQ2");
+  fs::remove_all(folder);
+}
+
 // while it waits for a file that is a pipe
 TEST(Command, interrupted_before_its_first_solve_ends_with_a_message)
 {

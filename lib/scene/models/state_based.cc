@@ -200,7 +200,7 @@ namespace plumbline::scene
                   {"Methods/names", "FA, PA-AC, IPA-AC"},
                   {"Methods/nodes", "vertices"},
                   {"Study/regime", "m"},
-                  {"Study/h", "1/10, 1/20, 1/30, 1/40"},
+                  {"Study/h", "1/10, 1/20, 1/40, 1/80, 1/160"},
                   {"Study/horizon", "0.2"},
                   {"Study/norms", "averages L2"},
                   {"Study/decisive error", "averages L2 | own finest level"}}}};
