@@ -18,8 +18,8 @@ namespace plumbline::check
     bool is_periodic() const { return boundary == scene::Boundary::periodic; }
     /// Whether families are cut; else balls are whole.
     bool is_cut() const { return is_free() || !cracks.empty(); }
-    /// Width of the collar of Ω: in periodic boxes with nodes on the sides, images of neighbours lie
-    /// as far as the horizon from the box, and not on the edge of this collar.
+    /// Width of the collar of Ω: in periodic boxes with nodes on the sides, images of neighbours
+    /// lie as far as the horizon from the box, and not on the edge of this collar.
     double collar(const problem::Level &level) const
     {
       return is_free() ? 0 : level.horizon + (is_periodic() ? level.h : 0);
