@@ -191,7 +191,7 @@ def page(root, program, work, pictures):
         "take the time that this saves into account.", "",
         "## Model of a cluster", "",
         "`plumbline run SCENE --estimate --ranks P` prints the model for scenes whose domain is one box and runs nothing. "
-        "Without `--ranks` it is for the ranks that `mpirun` starts. The " + predicted[0]["constants"] + ". All parts are "
+        "Without `--ranks` it is for the ranks that `mpirun` starts. The model: " + predicted[0]["constants"] + ". All parts are "
         "those of the rank for which they take longest. The model contains neither contention nor network links that "
         "several ranks share: where they do, divide the bandwidth by their number.", "",
         "The charts show cores × time / unknowns, which is constant where scaling is ideal, for `FA` at m = 3. The cluster "

@@ -30,12 +30,12 @@ namespace plumbline::report
     std::string constants(const algebra::Rates &rates)
     {
       constexpr double micro = 1e6, nano = 1e9;
-      return "time = work + α messages + β bytes sent, with assumed constants: α = " +
+      return "time = work + α messages + β bytes sent; assumed: α = " +
              rounded(micro * rates.latency) + " µs, β = 1 / (" + rounded(1 / (nano * rates.byte)) +
-             " GB/s); work: " + rounded(nano * rates.bond) +
-             " ns for an entry of the operator at a node, " + rounded(nano * rates.level) +
-             " ns for a value and level of a sine transform, " + rounded(nano * rates.value) +
-             " ns for a number of a vector (benchmarks/ranks measures them)";
+             " GB/s),\nwork " + rounded(nano * rates.bond) +
+             " ns an entry of the operator at a node, " + rounded(nano * rates.level) +
+             " ns a value and level of a sine\ntransform, " + rounded(nano * rates.value) +
+             " ns a number of a vector (benchmarks/ranks measures them)";
     }
 
     std::vector<Cell> cells(const study::TimeOfLevel &level, const std::string &operation,
@@ -77,6 +77,6 @@ namespace plumbline::report
       }
     }
     return "\npredicted time and messages of each of " + std::to_string(n_ranks) + " ranks\n" +
-           wrapped(constants(rates), 120) + "\n\n" + to_text(without_empty_columns(table));
+           constants(rates) + "\n\n" + to_text(without_empty_columns(table));
   }
 } // namespace plumbline::report
