@@ -50,7 +50,15 @@ namespace plumbline::app
       }
       else if (parsed.empty())
         known = commands_of(app);
-      return base::did_you_mean(argument.substr(0, argument.find('=')), known);
+      const std::string name = argument.substr(0, argument.find('='));
+      const std::string similar = base::did_you_mean(name, known);
+      if (!similar.empty())
+        return similar;
+      std::vector<std::string> swapped; // two letters of a short word are two edits
+      for (const std::string &one : known)
+        if (std::is_permutation(name.begin(), name.end(), one.begin(), one.end()))
+          swapped.push_back(one);
+      return base::did_you_mean(swapped);
     }
 
     /// What the value of an option must be, from "--threads = -1".
@@ -76,8 +84,11 @@ namespace plumbline::app
       std::string all;
       for (const std::string &name : commands_of(app))
         all += (all.empty() ? "" : ", ") + name;
+      const std::vector<std::string> given = app.remaining();
+      const std::string first = given.empty() ? "" : given[0];
       return "no known command is given; write plumbline run SCENE, or another command: " + all +
-             (app.remaining().empty() ? "" : hint(app.remaining()[0], app));
+             (first.empty() || first[0] == '-' ? "" : "; '" + first + "' is not a command") +
+             (first.empty() ? "" : hint(first, app));
     }
 
     std::string explain_extras(const CLI::App &app)

@@ -34,6 +34,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <type_traits>
 
 namespace plumbline::app
 {
@@ -93,6 +94,20 @@ namespace plumbline::app
       std::function<int()> action;       ///< gives the exit code
     };
 
+    /// Of --set and of options in place of keys, whose values are not in a line of the scene.
+    template <class Options>
+    std::vector<scene::Override> all_overrides(const Options &options)
+    {
+      std::vector<scene::Override> overrides = options.overrides;
+      if constexpr (std::is_base_of_v<SceneOptions, Options>)
+        if (!options.methods.empty())
+          overrides.push_back({"Methods/names", options.methods});
+      if constexpr (std::is_base_of_v<RunOptions, Options>)
+        if (!options.model.empty())
+          overrides.push_back({"Solver/model", options.model});
+      return overrides;
+    }
+
     /// What a command that is chosen does.
     void set_action(CLI::App &command, Request &request, const std::function<int()> &action,
                     bool is_for_all_ranks = false)
@@ -115,7 +130,7 @@ namespace plumbline::app
           [=, &request]
           {
             options->overrides = to_overrides(request.settings);
-            return with_scene(options->scene_file, options->overrides,
+            return with_scene(options->scene_file, all_overrides(*options),
                               [&] { return action(*options); });
           },
           is_for_all_ranks);
@@ -153,7 +168,7 @@ namespace plumbline::app
                    "Print the estimated peak memory of each rank by method and level, on several "
                    "ranks also the time of an iteration, and exit without running");
       run.add_option("--ranks", options->n_ranks,
-                     "With --estimate: for so many ranks (default: those that run)")
+                     "With --estimate: number of ranks to predict for (default: those that run)")
           ->check(CLI::Range(1u, 1000000u));
       set_action(run, request, options, driver::run, true);
     }
@@ -329,7 +344,7 @@ namespace plumbline::app
       command.add_option(
           "--state", options->state,
           "strain (plane strain, the default as in scenes), stress (plane stress) or 3D; "
-          "plane-stress and plane-strain will do");
+          "plane-stress and plane-strain are accepted, too");
       command
           .add_option(check::ratios_option, options->ratios,
                       "Ratios m = horizon / h, separated by commas, semicolons or blanks (default: "

@@ -6,7 +6,7 @@
 
 namespace plumbline::app
 {
-  /// Writes a scene whose methods the command that runs it takes.
+  /// Writes a scene with methods that the command that runs it accepts.
   /// @return  what was written, and the next command
   /// @throws InputError  as scene::write_new_scene; methods that the command refuses: nothing is
   /// left

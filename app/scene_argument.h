@@ -8,8 +8,8 @@
 
 namespace plumbline::app
 {
-  /// An action on a scene's file. What it throws names the file and the line of the key that the
-  /// message opens with; where the file is not there, the scene that was probably meant.
+  /// Runs an action on a scene's file. Its errors name the file and the line of the key that the
+  /// message begins with; if the file does not exist, the scene that was probably meant.
   /// @return  what the action returns
   int with_scene(const std::string &file, const std::vector<scene::Override> &overrides,
                  const std::function<int()> &action);

@@ -216,8 +216,9 @@ namespace plumbline::check
     if (omega.include.size() != 1 || !omega.exclude.empty())
       throw InputError("a periodic domain is one box without holes; give one");
     nodes.box = {omega.include[0].lower, omega.include[0].upper};
-    nodes.box->take_in(nodes.places,
-                       [&](std::size_t k) { return "node " + std::to_string(nodes.id[k]); });
+    nodes.box->take_in(
+        nodes.places, [&](std::size_t k) { return "node " + std::to_string(nodes.id[k]); },
+        nodes.origin);
   }
 
   void add_images(const geometry::Mesh &mesh, const problem::Level &level,

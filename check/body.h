@@ -30,7 +30,7 @@ namespace plumbline::check
   /// @param key   that has it, for the message
   scene::Boundary to_boundary(const std::string &word, const std::string &key);
 
-  /// Nodes of Ω, one box of lengths, as those of a periodic box; others are left as they are.
+  /// If Ω is periodic (one box), takes its nodes into the box; otherwise leaves them as they are.
   /// @throws InputError  Ω is no box, and as geometry::PeriodicBox::take_in
   void take_into_box(const GivenBody &body, const geometry::Domain &omega,
                      meshfree::GivenNodes &nodes);

@@ -20,7 +20,7 @@ namespace plumbline::check
   InSpace find_in_space(const scene::Scene &scene, const Input &input,
                         const Requirements &required);
 
-  /// What programs are told of it.
+  /// The findings as a record, for other programs.
   study::Record record_of(const InSpace &found);
 
   /// For people; the answer last.

@@ -323,14 +323,16 @@ namespace plumbline::check
     }
 
     /// The horizon is not that of the bonds: it differs by more than a spacing, or there are nodes
-    /// of a lattice between the longest bond and it.
+    /// of a lattice between the longest bond and it, or cells there that bonds reach are outside of
+    /// the ball.
     bool is_other_horizon(const Findings &found)
     {
-      constexpr double shell = 1.05, tolerance = 1e-6; // spacings
+      constexpr double shell = 1.05, diagonal = .75, tolerance = 1e-6; // spacings
       const double horizon = found.level.level.horizon, spacing = found.level.node_size,
                    longest = longest_bond(found);
       return longest > 0 && (std::abs(longest - horizon) > shell * spacing ||
-                             (longest < (largest_shell(horizon / spacing) - tolerance) * spacing &&
+                             ((longest < (largest_shell(horizon / spacing) - tolerance) * spacing ||
+                               longest > horizon + diagonal * spacing) &&
                               is_on_lattice(found)));
     }
 
@@ -359,8 +361,9 @@ namespace plumbline::check
     {
       std::vector<std::string> result;
       const double ratio = found.level.node_size / found.level.level.horizon;
-      if (const std::string text = missing_crossings(found.n_crossing); !text.empty())
-        result.push_back(cause_word + text); // what else there is follows from it
+      const std::string no_crossing = missing_crossings(found.n_crossing);
+      if (!no_crossing.empty())
+        result.push_back(cause_word + no_crossing); // outliers and the matrix follow from it
       else
       {
         for (const Cause &cause : found.causes)
@@ -391,7 +394,7 @@ namespace plumbline::check
                          std::to_string(found.matrix.n_loose) + " not tied to the data");
       if (!found.matrix_failure.empty())
         result.push_back("the matrix cannot be examined: " + found.matrix_failure);
-      else if (!found.matrix.is_positive_definite())
+      else if (no_crossing.empty() && !found.matrix.is_positive_definite())
         result.push_back("the matrix is NOT positive definite: " +
                          std::to_string(found.matrix.n_negative_eigenvalues) +
                          " negative eigenvalues");

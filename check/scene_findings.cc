@@ -249,7 +249,7 @@ namespace plumbline::check
         scene.methods.nodes.are_vertices() && body.boundary == scene::Boundary::constrained;
     if (body.is_periodic() && !(scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty()))
       throw InputError("Domain/mesh = " + scene.domain.mesh.name +
-                       ": --boundary periodic is for one box; write lattice, and give "
+                       ": --boundary periodic needs one box; write lattice, and give "
                        "Domain/boxes");
     take_into_box(body, scene.domain.boxes, weights.nodes);
     if (scene.domain.mesh.is_lattice())

@@ -49,8 +49,8 @@ namespace plumbline::driver
       const std::string boundary = value_of("Domain/boundary");
       const auto known = base::from_word<scene::Boundary>(boundary);
       if (known && *known != scene::Boundary::constrained)
-        throw InputError("'plumbline check' does not support free bodies and periodic boxes of "
-                         "scenes: Domain/boundary = " +
+        throw InputError("'plumbline check' does not take free or periodic boundaries from the "
+                         "scene: Domain/boundary = " +
                          boundary + "; write constrained, and give --boundary " + boundary);
     }
 
@@ -94,13 +94,15 @@ namespace plumbline::driver
       const bool is_constrained = boundary == scene::Boundary::constrained;
       if (is_constrained && options.cracks.empty())
         return;
-      const std::string given = is_constrained ? "--crack" : "--boundary " + base::word(boundary);
+      const std::string given = is_constrained || (is_in_space && !options.cracks.empty())
+                                    ? "--crack"
+                                    : "--boundary " + base::word(boundary);
       if (is_in_space && !(boundary == scene::Boundary::periodic && options.cracks.empty()))
         throw InputError(given + " is for two dimensions; leave it out where Domain/dimension = 3");
       if (check::is_series(options))
         throw InputError(given + " is for the files of one level; give names without {h}");
     }
-    /// Print what is wanted on standard output, and write files where they are.
+    /// Print the requested output, and write files if there are any.
     /// @return  whether there are files
     bool show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
               const std::function<std::string()> &json, const std::function<std::string()> &text,

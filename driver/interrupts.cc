@@ -58,10 +58,9 @@ namespace plumbline::driver
     {
       const bool is_first = base::Communicator::all().rank() == 0;
       notice = is_first ? text : "";
-      last_notice = is_first
-                        ? "\ninterrupted again: ended at once; what was finished before is kept "
-                          "('plumbline report FOLDER' shows it for 'run')\n"
-                        : "";
+      last_notice = is_first ? "\ninterrupted again: ended at once; finished results are kept "
+                               "('plumbline report FOLDER' shows those of 'run')\n"
+                             : "";
       for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, handler);
     }

@@ -239,8 +239,8 @@ namespace plumbline::driver
           "the results of a run; leave out one of them");
     if (options.n_ranks > 0 && !options.is_estimate)
       throw InputError("--ranks = " + std::to_string(options.n_ranks) +
-                       " is of --estimate alone, which runs nothing; add --estimate, or run on so "
-                       "many ranks by mpirun -np " +
+                       " applies only to --estimate, which runs nothing; add --estimate, or run on "
+                       "that many ranks by mpirun -np " +
                        std::to_string(options.n_ranks));
     if (options.is_estimate)
     {

@@ -66,14 +66,22 @@ namespace plumbline::python
       return rows;
     }
 
-    /// Of cells that fill the first box, about as large as most volumes.
-    double usual_h(const geometry::Domain &domain, std::vector<double> volumes)
+    /// Of cells that fill the first box, about as many as it has nodes: volumes may be wrong.
+    double usual_h(const geometry::Domain &domain, const std::vector<Point<2>> &places,
+                   bool is_periodic)
     {
-      const auto middle = volumes.begin() + static_cast<std::ptrdiff_t>(volumes.size() / 2);
-      std::nth_element(volumes.begin(), middle, volumes.end());
       const geometry::Box &box = domain.include.front();
-      const double width = box.upper[0] - box.lower[0];
-      return width / std::max(1., std::round(width / std::sqrt(*middle)));
+      const double width = box.upper[0] - box.lower[0], height = box.upper[1] - box.lower[1],
+                   tolerance = 1e-9 * width;
+      double n = 0; // nodes on the boundary count half
+      for (const Point<2> &x : places)
+      {
+        double depth = HUGE_VAL; // below 0: outside
+        for (unsigned int d = 0; d < 2; ++d)
+          depth = std::min({depth, x[d] - box.lower[d], box.upper[d] - x[d]});
+        n += depth > tolerance ? 1 : depth < -tolerance ? 0 : is_periodic ? 1 : .5;
+      }
+      return width / std::max(1., std::round(width / std::sqrt(width * height / std::max(1., n))));
     }
 
     check::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
@@ -237,7 +245,7 @@ namespace plumbline::python
       {
         const py::gil_scoped_release others;
         meshfree::GivenNodes given = to_nodes(std::move(places), volumes.data());
-        const double size = h > 0 ? h : usual_h(domain, given.volume);
+        const double size = h > 0 ? h : usual_h(domain, given.places, body.is_periodic());
         found = find(std::move(given), to_rows(i, j, w, kernel_points), kernel, domain, size,
                      boundary_is_data, meant, values, std::move(body));
       }

@@ -171,11 +171,11 @@ namespace plumbline::python
         "matrix_arrays",
         [](const std::shared_ptr<problem::Case<2>> &problem, const py::object &method,
            const std::optional<double> &h) { return matrix(*problem, method, h); },
-        "problem"_a, "method"_a, "h"_a = py::none());
+        "problem"_a.none(false), "method"_a, "h"_a = py::none());
     module.def(
         "matrix_in_space",
         [](const std::shared_ptr<problem::Problem<3>> &problem, const std::string &method,
            const std::optional<double> &h) { return matrix_in_space(*problem, method, h); },
-        "problem"_a, "method"_a, "h"_a = py::none());
+        "problem"_a.none(false), "method"_a, "h"_a = py::none());
   }
 } // namespace plumbline::python

@@ -468,7 +468,7 @@ load, constraint, solution, coefficient
         "solve",
         [](std::shared_ptr<Case> problem, const py::object &method)
         { return solve(std::move(problem), method); },
-        "problem"_a, "method"_a,
+        "problem"_a.none(false), "method"_a,
         "Solve a problem by a method's name or a plumbline.Rule: a Solution. Other threads "
         "of Python run meanwhile.");
     module.def(
@@ -476,7 +476,8 @@ load, constraint, solution, coefficient
         [](std::shared_ptr<Case> problem, const py::object &method, bool estimate,
            const py::object &points)
         { return reference(std::move(problem), method, estimate, points); },
-        "problem"_a, "method"_a = py::none(), "estimate"_a = true, "points"_a = py::none(),
+        "problem"_a.none(false), "method"_a = py::none(), "estimate"_a = true,
+        "points"_a = py::none(),
         "A Galerkin solution (default: Q2, on triangles P2) with an estimate of its error, "
         "which takes about 20 times as long as the solution alone. At points in the domain, shape "
         "(n, 2) [length], the error is estimated as well: estimate[\"at_points\"].");

@@ -415,7 +415,7 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
         "solve_in_space",
         [](std::shared_ptr<ProblemInSpace> problem, const std::string &method)
         { return solve(std::move(problem), method); },
-        "problem"_a, "method"_a);
+        "problem"_a.none(false), "method"_a);
     module.def("node_weights_in_space", node_weights, "rule"_a, "kernel"_a, "nodes"_a, "volumes"_a,
                "box"_a, "exclude"_a, "h"_a);
     module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,

@@ -69,7 +69,7 @@ def measurements(root):
         ratio = row["seconds"] / row["model"]
         if not 1 / FACTOR < ratio < FACTOR:
             raise ValueError(f"benchmarks/ranks.csv: {row['operation']} on {row['ranks']:g} ranks takes {ratio:.2f} "
-                             "times as long as by the model; measure again on an idle machine, or mend the model")
+                             "times as long as predicted; measure again on an idle machine, or correct the model")
     return rows
 
 
@@ -148,7 +148,7 @@ def conclusions(predicted):
         ratio = first["time [ms]"] / last["time [ms]"]
         share = (last["latency [ms]"] + last["bandwidth [ms]"]) / last["time [ms]"]
         if one["study"] == "strong":
-            text = (f"an iteration is {ratio:.1f} times as fast on {RANKS[-1]} ranks as on {RANKS[0]}, of at most "
+            text = (f"an iteration is {ratio:.1f} times as fast on {RANKS[-1]} ranks as on {RANKS[0]}; ideal: "
                     f"{gain:g}; {last['ranks at work']:g} ranks have planes")
         else:
             text = (f"with as many cells on each rank, an iteration on {RANKS[-1]} ranks takes {1 / ratio:.2f} times as "
@@ -200,7 +200,7 @@ def page(root, program, work, pictures):
         f"one machine with {N_CORES} cores, for a smaller box ({measured[0]['nx']:g} nodes across): dots where each rank "
         "has a core, circles where 4 or 8 ranks share the two cores, which says nothing about a cluster.", "",
         *picture("strong", "Strong scaling: the same box on more ranks"),
-        *picture("weak", "Weak scaling: more ranks, as many cells on each"),
+        *picture("weak", "Weak scaling: more ranks, the same number of cells on each"),
         *conclusions(predicted), "",
         "A slab has at least one plane, so a cube of n³ cells can use at most n ranks. The planes that a rank receives, "
         "twice the reach of the stencil, do not become fewer with more ranks. The longest side of the box should therefore "

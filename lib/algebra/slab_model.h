@@ -35,7 +35,7 @@ namespace plumbline::algebra
   /// message for each block. Exact.
   base::Traffic halo_traffic(const SlabLayout &layout, unsigned int rank);
 
-  /// What a rank sends to apply SlabSine once: forth and back, for each block, the part of its
+  /// What a rank sends to apply SlabSine once: there and back, for each block, the part of its
   /// planes (rows of modes) that is in the other rank's rows (planes). The bytes are exact; FFTW
   /// may send one part in several messages.
   base::Traffic transpose_traffic(const SlabLayout &layout, unsigned int rank);
@@ -68,7 +68,7 @@ namespace plumbline::algebra
     ModelTime &operator+=(const ModelTime &other);
   };
 
-  /// Not in it: what work that overlaps with messages saves, nodes of one machine that share a
+  /// Not included: savings by overlap of work and messages, nodes of one machine that share a
   /// network link, contention.
   ModelTime operator_time(const SlabLayout &layout, const Stencil &stencil, const Rates &rates);
   ModelTime preconditioner_time(const SlabLayout &layout, const Rates &rates);

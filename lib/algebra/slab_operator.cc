@@ -1,5 +1,7 @@
 #include "algebra/slab_operator.h"
 
+#include <deal.II/base/multithread_info.h>
+
 #include <algorithm>
 
 namespace plumbline::algebra
@@ -51,7 +53,10 @@ namespace plumbline::algebra
     if (direct_)
     {
       direct_->take(with_halo_.data(), 0, n);
-      const int step = slabs_.ranks().n_ranks() > 1 ? 1 : n; // between looks at messages
+      // planes between looks at messages: few, and enough to share among the rank's threads
+      const int step = slabs_.ranks().n_ranks() == 1               ? n
+                       : dealii::MultithreadInfo::n_threads() == 1 ? 1
+                                                                   : std::max(1, n / 4);
       for (int k = interior_.first; k < interior_.second; k += step)
       {
         direct_->compute(k, std::min(k + step, interior_.second), output);

@@ -25,7 +25,7 @@ namespace plumbline::base
     PlaneExchange &operator=(const PlaneExchange &) = delete;
     ~PlaneExchange() { finish(); }
 
-    /// Let MPI go on with the messages: without a call now and then most implementations send
+    /// Let MPI progress the messages: without occasional calls most implementations send
     /// nothing large.
     void advance();
 

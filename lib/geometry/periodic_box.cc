@@ -32,8 +32,10 @@ namespace plumbline::geometry
 
   template <int dim>
   void PeriodicBox<dim>::take_in(std::vector<Point<dim>> &nodes,
-                                 const std::function<std::string(std::size_t)> &name) const
+                                 const std::function<std::string(std::size_t)> &name,
+                                 const Point<dim> &origin) const
   {
+    const auto place = [&](const Point<dim> &x) { return to_text(Point<dim>(origin + x)); };
     constexpr double on_side = 1e-9; // of the side
     double volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
@@ -44,9 +46,9 @@ namespace plumbline::geometry
         const double tolerance = on_side * side(d);
         double &x = nodes[k][d];
         if (!(x >= lower[d] - tolerance && x <= upper[d] + tolerance))
-          throw InputError(name(k) + " at " + to_text(nodes[k]) +
-                           " lies outside of the periodic box from " + to_text(lower) + " to " +
-                           to_text(upper) +
+          throw InputError(name(k) + " at " + place(nodes[k]) +
+                           " lies outside of the periodic box from " + place(lower) + " to " +
+                           place(upper) +
                            "; give each node once, inside of the box, and leave out ghost nodes: "
                            "bonds across the sides are bonds to the nodes themselves");
         if (x > upper[d] - tolerance)
@@ -67,7 +69,7 @@ namespace plumbline::geometry
         throw InputError("the periodic box is " + base::to_text(side(d), digits) + " long in " +
                          std::string(1, "xyz"[d]) + ", no more than 2 (horizon + h) = " +
                          base::to_text(2 * (horizon + h), digits) +
-                         ", so that bonds may reach a node and its image; give the weights of a "
+                         ", so bonds may reach both a node and its image; give the weights of a "
                          "larger box, or another horizon");
   }
 

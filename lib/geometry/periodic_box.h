@@ -8,7 +8,7 @@
 
 namespace plumbline::geometry
 {
-  /// A box whose opposite sides are joined: what leaves it on one side comes in on the other.
+  /// A box with periodic boundary conditions: opposite sides are identified.
   template <int dim>
   struct PeriodicBox
   {
@@ -21,10 +21,12 @@ namespace plumbline::geometry
     Point<dim> shortest(Point<dim> xi) const;
 
     /// Moves nodes on the upper sides to the lower ones, where their images are.
-    /// @param name  of each node, for messages: "node 7"
+    /// @param name    of each node, for messages: "node 7"
+    /// @param origin  of all coordinates, for messages
     /// @throws InputError  a node outside of the box, two nodes that are images of each other
     void take_in(std::vector<Point<dim>> &nodes,
-                 const std::function<std::string(std::size_t)> &name) const;
+                 const std::function<std::string(std::size_t)> &name,
+                 const Point<dim> &origin = {}) const;
 
     /// No bond may reach half around the box.
     /// @throws InputError  a side no longer than 2 (horizon + h)

@@ -100,7 +100,7 @@ namespace plumbline::physics
       case mu::ecUNASSIGNABLE_TOKEN:
       case mu::ecINVALID_NAME:
         if (is_unit(error))
-          return about("there is a unit or an unknown name") +
+          return about("a unit or an unknown name follows a number") +
                  " (numbers have no units: 200 GPa are 200e9 in Pa)";
         return about("there is an unknown name or sign") +
                " (functions are sin, cos, exp, sqrt, abs, ...; z needs Domain/dimension = 3)";

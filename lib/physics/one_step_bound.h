@@ -16,7 +16,7 @@ namespace plumbline::physics
     double holder = 0, holder_second = 0; ///< ‖u‖ and ‖u_tt‖ in C^(0,γ), γ in (0, 1]
   };
 
-  /// 6 C̄/ε², by which F is Lipschitz continuous in L². Source: (41). The paper drops the 6 in (50),
+  /// 6 C̄/ε², the Lipschitz constant of F in L². Source: (41). The paper drops the 6 in (50),
   /// (51) and all that follows from them, such as (53). Infinite where C̄ is.
   double lipschitz_constant(const DoubleWell &law);
 
@@ -30,7 +30,7 @@ namespace plumbline::physics
   /// @param measure  |D| [length^dim]
   double c_s(const DoubleWell &law, const SolutionNorms &norms, double exponent, double measure);
 
-  /// T exp(T (1 + L)), what (17) and (43) multiply the truncation error C_t Δt + C_s h^γ/ε² by;
+  /// T exp(T (1 + L)), the factor of the truncation error C_t Δt + C_s h^γ/ε² in (17) and (43);
   /// C₁ of section 6.
   double growth_factor(double lipschitz, double final_time);
 

@@ -197,7 +197,7 @@ namespace plumbline::report
       const std::string &method = certificate.galerkin.method;
       return method.rfind("DG", 0) == 0 || method.empty()
                  ? ""
-                 : "; where u may jump, as at the boundary of the domain or with the load, take "
+                 : "; where u may jump, as at the domain boundary or where the load jumps, use "
                    "the "
                    "discontinuous space, Reference/method = DG" +
                        method;

@@ -168,8 +168,8 @@ namespace plumbline::report
     {
       return {
           "bounds", "A priori bounds of errors and energies",
-          "Of Jha & Lipton 2018, doi:10.1137/17M1112236. error: the largest over time of u and "
-          "its rate together, L2 over nodes; bound: of this by (17) for symplectic Euler and by "
+          "From Jha & Lipton 2018, doi:10.1137/17M1112236. error: largest over time, of u and "
+          "its rate together, L2 over nodes; bound: its bound, (17) for symplectic Euler and "
           "(52), with the factor 6 of (41), for schemes with θ; empty for other schemes, and "
           "where C̄ is infinite or steps are too long. C_t, C_s: (37) and (38), from the largest "
           "norms along the computed solution. energy and its bound (58): the largest over time. "

@@ -11,7 +11,7 @@ namespace plumbline::report
                           double available);
 
   /// A table of predicted times and messages on each of so many ranks, after the constants that
-  /// they are predicted with; that there are none where it is empty.
+  /// they are predicted with; a note if there are none.
   std::string times_text(const std::vector<study::TimeOfLevel> &times, unsigned int n_ranks,
                          const algebra::Rates &rates);
 } // namespace plumbline::report

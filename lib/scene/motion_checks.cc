@@ -90,11 +90,11 @@ namespace plumbline::scene
       needs(scene.domain.is_periodic, "Domain/boundary = periodic");
       needs(!scene.material.model->is_linear(), "Material/model = double well");
       needs(problem.loads.empty() && problem.solutions.empty(),
-            "initial data alone: no Problem/solution and no Problem/load");
+            "initial data only, without Problem/solution and Problem/load");
       needs(scene.time.damping == 0, "Time/damping = 0");
     }
 
-    /// The bounds are those of a scheme's proof.
+    /// Requires the assumptions under which the bounds are proven.
     void check_bounds(const Scene &scene)
     {
       if (!scene.time.has_bounds)
@@ -102,10 +102,9 @@ namespace plumbline::scene
       const auto needs = [](bool is_good, const std::string &what)
       { require(is_good, "Time/a priori bounds = true needs " + what); };
       needs(!scene.material.model->is_linear(),
-            "Material/model = double well: they hold for these bonds alone");
-      needs(
-          scene.time.density == 1 && scene.time.damping == 0,
-          "Time/density = 1 and Time/damping = 0, for which they are proven; scale c by 1/density");
+            "Material/model = double well: the bounds hold only for these bonds");
+      needs(scene.time.density == 1 && scene.time.damping == 0,
+            "Time/density = 1 and Time/damping = 0, as their proof does; scale c by 1/density");
       needs(scene.domain.mesh.is_lattice(), "Domain/mesh = lattice, whose cells they refer to");
     }
 

@@ -121,7 +121,8 @@ namespace plumbline::scene
                        base::to_text(h, 3) +
                        "; widen the physical surfaces collar... to two mesh "
                        "sizes or more, or refine the mesh");
-    mesh.h = base::to_text(h, 4);
+    constexpr int all_digits = 15; // m of them rounded up would be wider than the collar
+    mesh.h = base::to_text(h, all_digits);
     const std::vector<double> factors =
         mesh.dimension == 3 ? std::vector<double>{.7} : std::vector<double>{.7, .5, .35};
     for (const double factor : factors)
@@ -132,7 +133,7 @@ namespace plumbline::scene
       groups += (groups.empty() ? ", physical surfaces " : ", ") + group;
     mesh.found = "the mesh has " + std::to_string(found.n_cells) + " " + found.cells + groups +
                  (given ? ", and h and delta of the script change with the level"
-                        : ", and is the same at all levels: one level is in the scene, and a rate "
+                        : ", and is the same at all levels: the scene has one level, and a rate "
                           "needs a .geo file with DefineConstant[ h = " +
                               base::to_text(found.side, 3) +
                               ", delta = " + base::to_text(m * found.side, 3) + " ]");

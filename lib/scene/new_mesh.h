@@ -15,7 +15,7 @@ namespace plumbline::scene
 
   /// Reads a .geo or .msh file, meshed once with the values that DefineConstant gives h and delta
   /// if it is a script that has them: then the scene has four levels, in space two. Other meshes do
-  /// not depend on h, and one level is all that they have.
+  /// not depend on h, and have one level only.
   /// @throws InputError  no such file, another ending, a mesh that cannot be used, with what it
   /// lacks
   NewMesh look_at_mesh(const std::string &file);

@@ -41,7 +41,10 @@ namespace plumbline::scene
           {"Domain/boxes", scene.domain.mesh.is_of_boxes(),
            "Domain/mesh = lattice, squares or triangles: other meshes define the domain"},
           {"Output/points", is_static, "a static problem"},
-          {"Output/fields", is_static, "a static problem; Time/frames writes states"},
+          {"Output/fields",
+           is_static || (scene.random.source != nullptr && scene.random.n_modes > 0),
+           "a static problem, or a random field with modes (sample/modes.csv); Time/frames writes "
+           "states"},
           {"Reference/tolerance", is_static, "a static problem"},
           {"Problem/local solution",
            is_static || scene.problem.local_solution == LocalSolution::none ||

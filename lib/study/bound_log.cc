@@ -192,7 +192,7 @@ namespace plumbline::study
     return scheme.name + ": steps of " + number(step) +
            (step < printed ? " are below ε²/C̄ = " : " are not below ε²/C̄ = ") + number(printed) +
            ", (53) of Jha & Lipton 2018, and not below " + number(limit) +
-           ", which its proof needs with the factor 6 of (41): the error bound does not apply. The "
+           ", the proof's limit with the factor 6 of (41): the error bound does not apply. The "
            "scheme itself works while I - Δt²θ² ∂F/∂u is positive definite, which is checked.";
   }
 } // namespace plumbline::study

@@ -11,7 +11,7 @@
 namespace plumbline::study
 {
   /// The a priori bounds of Jha & Lipton 2018, doi:10.1137/17M1112236, for one motion of double
-  /// wells: the norms of u that enter them, as far as the computed motion shows them, the bounds,
+  /// wells: the norms of u that enter them, estimated from the computed motion, the bounds,
   /// and the errors and energies that they are to hold for.
   class BoundLog
   {
@@ -58,6 +58,6 @@ namespace plumbline::study
     double impulse_ = 0, last_load_ = 0, last_time_ = 0; ///< ∫ ‖b‖ dt
   };
 
-  /// Of schemes with θ > 0 whose steps are not shorter than (53): names the numbers. Empty: none.
+  /// A warning, if a scheme has θ > 0 and steps not below (53), with the numbers. Empty: none.
   std::string step_warning(const scene::Scene &scene, const analysis::Record &record);
 } // namespace plumbline::study

@@ -487,8 +487,8 @@ namespace plumbline::study
       refuse(
           "Reference/estimate = none, but a certificate needs the estimated error; leave it out");
     if (scene.study.regime != scene::Regime::m || scene.study.series.size() != 1)
-      refuse("Study/regime must be m with one horizon, as Study/horizon = 0.2: a certificate is of "
-             "one nonlocal problem, "
+      refuse("Study/regime must be m with one horizon, e.g. Study/horizon = 0.2: a certificate is "
+             "for one nonlocal problem, "
              "on finer and finer meshes");
     if (const std::size_t n = scene.study.series.front().levels.size(); n < n_levels)
       refuse("Study/h has " + std::to_string(n) +

@@ -247,7 +247,7 @@ namespace plumbline::study
       else if (before_end.size() < all.size())
         conclude(Outcome::runs, "the tip comes to the end of the strip" + beside);
       else if (crossings < few_crossings || transits < few_transits)
-        conclude(Outcome::too_short, length + "; a motion needs at least " + text(few_crossings) +
+        conclude(Outcome::too_short, length + "; the run needs at least " + text(few_crossings) +
                                          " and " + text(few_transits) + ", and " + text(to_arrest) +
                                          " transits to show an arrest: Time/final time = " +
                                          text(std::max(few_crossings * scales.crossing(),

@@ -40,7 +40,7 @@ namespace plumbline::study
         if (n_run < one.levels.size())
           return " (needs all " + std::to_string(one.levels.size()) +
                  " levels: " + std::to_string(one.levels.size() - n_run) +
-                 " were left out, as by --levels; run without it)";
+                 " were left out, for example by --levels; run without it)";
       }
       return "";
     }

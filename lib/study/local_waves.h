@@ -10,7 +10,7 @@ namespace plumbline::study
 {
   /// The local limit of double wells on a torus without a load: waves of the Navier equation with
   /// λ = μ, u_tt = μ/ρ (Δu + 2 ∇ div u), in one dimension u_tt = (modulus/ρ) u_xx. Each Fourier
-  /// mode of the initial data moves by itself, its part along k with c_L, that across k with c_T.
+  /// mode of the initial data evolves by itself, its part along k at speed c_L, across k at c_T.
   /// Jha & Lipton 2018, doi:10.1137/17M1112236, section 5, with the constants of
   /// physics::DoubleWell.
   class LocalWaves

@@ -164,7 +164,7 @@ namespace plumbline::study
     {
       throw InputError(
           "Domain/mesh = " + scene.domain.mesh.name + " has the " + std::to_string(n_cells) +
-          " cells of the level before, so that rates would mean nothing; give "
+          " cells of the level before, so convergence rates would be meaningless; give "
           "a mesh that follows h (in a .geo by the line 'DefineConstant[ h = 0.1, delta = "
           "0.3 ];'), or a single value of Study/h");
     }

@@ -1,5 +1,6 @@
 #include "study/rank_times.h"
 
+#include "base/error.h"
 #include "method/discretisation_in_space.h"
 #include "scene/problem.h"
 
@@ -70,7 +71,13 @@ namespace plumbline::study
         continue;
       for (const auto &series : scene.study.series)
         for (std::size_t i = 0; i < series.levels.size() && (n_levels == 0 || i < n_levels); ++i)
-          found.push_back(predict(scene, *method, series.name, series.levels[i], n_ranks, rates));
+          try
+          {
+            found.push_back(predict(scene, *method, series.name, series.levels[i], n_ranks, rates));
+          }
+          catch (const NumericalError &) // no row: a finding of the run
+          {
+          }
     }
     return found;
   }

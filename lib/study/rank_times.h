@@ -20,7 +20,7 @@ namespace plumbline::study
   };
 
   /// Of the methods that are distributed over ranks in slabs, by method, series and level. Stencils
-  /// are made, nothing else: as many unknowns as there may be.
+  /// are computed and nothing else, so the number of unknowns is not limited.
   /// @param n_levels  the first so many of each series; 0: all
   /// @pre scene.domain.is_in_space()
   std::vector<TimeOfLevel> predict_times(const scene::Scene &scene, const Methods &methods,

@@ -222,7 +222,7 @@ namespace plumbline::study
       if (!sums.sets.empty())
         for (const auto &[name, values] : sums.sets.back().values)
           if (const std::size_t n = sums.sets.back().weights.size(); values.size() < n)
-            findings.push_back(name + " of " + result.of.method + " is there for " +
+            findings.push_back(name + " of " + result.of.method + " is available for " +
                                std::to_string(values.size()) + " of " + std::to_string(n) +
                                " samples, so that it has no statistics");
       for (std::size_t s = 0; s < plan.sets.size(); ++s)

@@ -123,10 +123,10 @@ namespace plumbline::meshfree
                          (nodes.line[i] > 0 ? ", line " + std::to_string(nodes.line[i]) : "") +
                          ": node " + std::to_string(nodes.id[i]) + " at " +
                          to_text(nodes.origin + nodes.places[i]) +
-                         " lies outside of the domain and its collar at the level " + level +
-                         "; if those are not the h and the horizon of your bonds (Study), give "
-                         "them; otherwise take out nodes that no bond reaches, such as the corners "
-                         "of a square collar, or move them in");
+                         " lies outside the domain and interaction domain at level " + level +
+                         "; if those are not the h and horizon of your bonds (Study), correct "
+                         "them; otherwise remove nodes that no bond reaches, such as the corners "
+                         "of a square interaction domain, or move them in");
     if (const auto twins = geometry::find_coincident_nodes(nodes.places, mesh))
       throw InputError("'" + nodes.file + "', line " + std::to_string(nodes.line[twins->second]) +
                        ": node " + std::to_string(nodes.id[twins->second]) + " " +
@@ -204,6 +204,13 @@ namespace plumbline::meshfree
       result.uncut_areas = uncut.area;
       return result;
     }
+    const auto is_outside = [](const geometry::MeshCell &cell) { return !cell.is_inside; };
+    if (std::any_of(mesh.cells.begin(), mesh.cells.end(), is_outside) &&
+        nodes_inside(nodes, mesh).size() == nodes.size())
+      throw InputError("'" + nodes.file + "': none of the " + std::to_string(nodes.size()) +
+                       " nodes lies in the interaction domain around the domain, where u is "
+                       "prescribed; add nodes there, or give the boundary as free or periodic "
+                       "(--boundary, in Python boundary=)");
     result.n_on_boundary =
         static_cast<std::size_t>(std::count(is_on_boundary.begin(), is_on_boundary.end(), true));
     if (boundary_is_data)

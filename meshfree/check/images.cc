@@ -96,8 +96,8 @@ namespace plumbline::meshfree
         axes += (axes.empty() ? "" : " and ") + std::string(1, "xyz"[d]);
     return axes.empty() ? ""
                         : "no bond crosses the sides of the periodic box in " + axes +
-                              ": neighbours are sought without the nearest images of nodes; add "
+                              ": the code finds neighbours without nearest images of nodes; add "
                               "the bonds across these sides, or, where they are free surfaces, "
-                              "do not check the box as a periodic one";
+                              "do not check with a periodic boundary";
   }
 } // namespace plumbline::meshfree

@@ -12,7 +12,7 @@ namespace plumbline::meshfree
   /// @pre  nodes.box is there, and has taken the nodes in
   void add_images(const geometry::Mesh &mesh, GivenNodes &nodes);
 
-  /// Which images the bonds of a periodic box are to.
+  /// The images to which the bonds of a periodic box lead.
   class NearestImages
   {
   public:

@@ -81,7 +81,7 @@ namespace plumbline::meshfree
             if (std::abs(row.bond.xi[d]) > .5 * nodes.box->side(d))
               throw InputError(source.place(row.line) + "this bond is " +
                                base::to_text(row.bond.xi.norm(), 6) +
-                               " long, more than half a side of the periodic box and than the "
+                               " long, which exceeds half a side of the periodic box and what the "
                                "horizon allows; give the horizon of the bonds (Study), or take "
                                "the bond out");
     }

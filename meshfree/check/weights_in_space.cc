@@ -65,6 +65,24 @@ namespace plumbline::meshfree
       return bonds;
     }
 
+    /// Whether no pair has bonds both ways.
+    /// @param sorted  by node, then by neighbour
+    bool is_half_list(const std::vector<const BondInSpace *> &sorted)
+    {
+      using Ends = std::pair<std::size_t, std::size_t>;
+      const auto is_listed = [&](const Ends &ends)
+      {
+        const auto at = std::lower_bound(sorted.begin(), sorted.end(), ends,
+                                         [](const BondInSpace *bond, const Ends &wanted)
+                                         { return Ends(bond->i, bond->j) < wanted; });
+        return at != sorted.end() && Ends((*at)->i, (*at)->j) == ends;
+      };
+      return std::none_of(sorted.begin(), sorted.end(),
+                          [&](const BondInSpace *bond) {
+                            return is_listed({bond->j, bond->i});
+                          });
+    }
+
     double median(std::vector<double> values)
     {
       if (values.empty())
@@ -138,6 +156,8 @@ namespace plumbline::meshfree
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const BondInSpace *a, const BondInSpace *b)
                      { return std::pair(a->i, a->j) < std::pair(b->i, b->j); });
+    // where every pair is listed once, some nodes may have no bonds
+    const bool is_half = is_half_list(sorted);
     given.families.assign(given.free.size(), {});
     given.lines.assign(given.free.size(), {});
     auto next = sorted.begin();
@@ -161,7 +181,7 @@ namespace plumbline::meshfree
         family.bonds.push_back(bond);
         given.lines[f].push_back(one.line);
       }
-      if (family.bonds.empty())
+      if (family.bonds.empty() && !is_half)
         throw InputError(bonds_name + ": " + id(given.free[f]) +
                          ", which lies in the box, has no bond; list the bonds of every node "
                          "there");

@@ -1,14 +1,15 @@
-"""Wrong arguments of classes and functions, told in words of our own: which one, and what is allowed."""
+"""Messages about wrong arguments of classes and functions: which one is wrong, and what is allowed."""
 import difflib
 import functools
 import inspect
 import numbers
 import re
+import sys
 
 from . import _core
 
 # of pybind11's signatures
-_KINDS = {"str": ("a text", str), "float": ("a number", numbers.Real), "int": ("a whole number", numbers.Integral),
+_KINDS = {"str": ("a string", str), "float": ("a number", numbers.Real), "int": ("a whole number", numbers.Integral),
           "bool": ("True or False", (bool, numbers.Integral)), "function": ("a function", None), "dict": ("a dict", dict)}
 # functions of _core that functions written in Python call, by the names of these
 _PUBLIC = {"lattice_weights": "weights", "node_weights": "weights", "node_weights_in_space": "space.weights",
@@ -106,12 +107,12 @@ def _fault(name, parameters, args, kwargs):
     by_place = [one for one in parameters if not one.is_keyword]
     if len(args) > len(by_place):
         by_name = [one.name for one in parameters if one.is_keyword]
-        return (f"{name} takes at most {len(by_place)} arguments without a name, and {len(args)} are given; {allowed}" +
+        return (f"{name} takes at most {len(by_place)} positional arguments, but {len(args)} are given; {allowed}" +
                 (f", with {', '.join(by_name)} by name" if by_name else ""))
     values = dict(zip((one.name for one in by_place), args))
     for given in kwargs:
         if given in values:
-            return f"{name}: the argument {given} is given twice, by place and by name; {allowed}"
+            return f"{name}: the argument {given} is given twice, by position and by name; {allowed}"
     values.update(kwargs)
     for one in parameters:
         if one.default is None and one.name not in values:
@@ -132,11 +133,11 @@ def _explained(name, documentation, args, kwargs):
     wanted = "; or ".join(", ".join(str(one) + (f" ({one.wanted()})" if one.wanted() else "") for one in parameters)
                           for parameters in signatures)
     given = ", ".join([repr(one)[:60] for one in args] + [f"{key}={value!r}"[:60] for key, value in kwargs.items()])
-    return f"{name}({given}): an argument is of the wrong kind or out of range; give {wanted or 'no argument'}"
+    return f"{name}({given}): an argument has the wrong type or is out of range; give {wanted or 'no argument'}"
 
 
-def _compiled(function, name, is_method=False):
-    """A function of _core whose TypeError about its arguments is explained."""
+def _compiled(function, name, qualified, is_method=False):
+    """A function of _core whose TypeError about its arguments is explained; pickle finds it as qualified."""
     @functools.wraps(function)
     def call(*args, **kwargs):
         try:
@@ -146,6 +147,7 @@ def _compiled(function, name, is_method=False):
                 raise
             message = _explained(name, function.__doc__, args[1:] if is_method else args, kwargs)
         raise TypeError(message)
+    call.__module__, call.__qualname__ = _core.__name__, qualified
     return call
 
 
@@ -171,7 +173,7 @@ def _python(function):
 
 def _not_constructed(name):
     def refuse(self, *args, **kwargs):
-        raise TypeError(f"{name} has no constructor: functions return it, as solve() returns a solution")
+        raise TypeError(f"{name} has no constructor: functions return it, for example solve() a Solution")
     return refuse
 
 
@@ -179,7 +181,7 @@ def explain_core():
     """Once, before anything takes a function of _core by its name."""
     for name, one in list(vars(_core).items()):
         if inspect.isbuiltin(one):
-            setattr(_core, name, _compiled(one, _PUBLIC.get(name, name)))
+            setattr(_core, name, _compiled(one, _PUBLIC.get(name, name), name))
         elif inspect.isclass(one) and not issubclass(one, Exception):
             public = name.replace("Space", "space.")
             if str(one.__init__.__doc__).startswith("Initialize self."):
@@ -187,13 +189,17 @@ def explain_core():
             for key, member in list(vars(one).items()):
                 label = public if key == "__init__" else f"{public}.{key}" if key != "__call__" else f"a {public}"
                 if isinstance(member, staticmethod):
-                    setattr(one, key, staticmethod(_compiled(member.__func__, label)))
+                    setattr(one, key, staticmethod(_compiled(member.__func__, label, f"{name}.{key}")))
                 elif (key in ("__init__", "__call__") or not key.startswith("_")) and callable(member):
-                    setattr(one, key, _compiled(member, label, is_method=True))
+                    setattr(one, key, _compiled(member, label, f"{name}.{key}", is_method=True))
 
 
 def explain_python(names, module):
-    """The public functions of a module that are written in Python."""
+    """The public functions of a module that are written in Python; also where pickle looks, in their own module."""
     for name in names:
-        if inspect.isfunction(module.get(name)) and not hasattr(module[name], "__wrapped__"):
-            module[name] = _python(module[name])
+        function = module.get(name)
+        if inspect.isfunction(function) and not hasattr(function, "__wrapped__"):
+            module[name] = _python(function)
+            defined = sys.modules.get(function.__module__)
+            if getattr(defined, function.__name__, None) is function:
+                setattr(defined, function.__name__, module[name])

@@ -116,7 +116,7 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
     kernel    the Kernel that the weights are meant for
     boxes     the domain, ((x0, y0), (x1, y1)) or a list of them; exclude is taken out of it
     points    where the kernel is taken, relative to node i, shape (n_bonds, 2); default: at node j
-    h         side of cells that fill the boxes; default: by the volumes
+    h         side of cells that fill the boxes; default: by the number of nodes in the first box
     boundary_is_data  nodes on the boundary of the domain are constrained
     rule      names of the rules that the weights are meant to be, if that is known
     bonds_are  what w holds: "weights", "stiffness" (C w: force density per length) or

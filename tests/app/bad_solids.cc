@@ -78,7 +78,7 @@ TEST_F(BadSolids, constants_of_no_solid_are_refused)
        {variational("1", "-8"), {"Material/k and l: the shear constant l = -8", "be positive"}},
        {no_E, {"Material/model = LPS needs one pair of constants: E and nu, lambda and mu, or k"}},
        {set("Material/model", "bond-based"),
-        {"Material/nu = 0.3: forces along bonds alone make a solid of nu = 1/4 in plane strain "
+        {"Material/nu = 0.3: pairwise forces along bonds imply nu = 1/4 in plane strain "
          "(1/3 "
          "in plane stress)",
          "write Material/nu = 0.25 or leave it empty",

@@ -205,7 +205,7 @@ TEST(Check, refuses_nodes_that_cannot_be_used)
     expect_found(near.err, "from node 46 of line 47, nearer than 1e-12 of the cells' size");
   }
   refuse("1,-0.3125,-0.4125,0.015625\n",
-         {"line 2: node 1 at (-0.3125, -0.4125) lies outside of the domain and its collar at the "
+         {"line 2: node 1 at (-0.3125, -0.4125) lies outside the domain and interaction domain at "
           "level m = 3: h = 0.125, horizon = 0.375; if those are not"});
   expect_refusal(write("nodes.csv", replace(text, "volume", "area")), bonds_file,
                  {"has no column volume in its first line 'id,x,y,area'"});

@@ -283,7 +283,7 @@ TEST(CheckCauses, bodies_that_are_not_checked_are_refused_before_all_else)
                                                    "scenes: Domain/cracks is given; clear it, "
                                                    "and give --crack"},
         std::pair{"Domain/boundary=free",
-                  "'plumbline check' does not support free bodies and periodic boxes of scenes"}})
+                  "'plumbline check' does not take free or periodic boundaries from the scene"}})
   {
     const Outcome outcome = check(nodes_file, bonds_file, more + "--set " + key);
     EXPECT_EQ(outcome.exit_code, 2);
@@ -343,6 +343,6 @@ TEST(CheckCauses, a_scene_of_other_bonds_is_asked_about_first)
   const Outcome outside = check(nodes_file, bonds_file, "--set Study/h=0.1");
   EXPECT_EQ(outside.exit_code, 2);
   expect_found(outside.err, "h = 0.1, horizon = 0.3, while the nodes' spacing is 0.125; if "
-                            "those are not the h and the horizon of your bonds (Study), give "
+                            "those are not the h and horizon of your bonds (Study), correct "
                             "them");
 }

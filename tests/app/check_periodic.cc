@@ -129,7 +129,7 @@ TEST(CheckPeriodic, mistakes_at_the_sides_are_named)
   Outcome outcome = open.check();
   EXPECT_EQ(outcome.exit_code, 1);
   expect_found(outcome.out, "cause: no bond crosses the sides of the periodic box in x and y: "
-                            "neighbours are sought without the nearest images");
+                            "the code finds neighbours without nearest images");
   Torus strip(.5);
   strip.keep([](const Row &row) { return !row.crosses[1]; });
   expect_found(strip.check().out, "no bond crosses the sides of the periodic box in y: ");
@@ -154,11 +154,20 @@ TEST(CheckPeriodic, mistakes_at_the_sides_are_named)
   half.keep([](const Row &row) { return row.i < row.j; });
   outcome = half.check();
   EXPECT_EQ(outcome.exit_code, 1);
-  expect_found(outcome.out, "half");
+  expect_found(outcome.out, "a half list");
   Torus doubled(0);
   for (Row &row : doubled.rows)
     row.weight *= 2;
   expect_found(doubled.check().out, "all weights are twice too large");
+}
+
+// weights for m = 3 and a scene with m = 2: no cause is named in vain
+TEST(CheckPeriodic, bonds_beyond_the_horizon_are_doubted)
+{
+  const Outcome outcome = Torus(.5).check("--set Study/m=2");
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_found(outcome.out, "the longest bond is ");
+  expect_found(outcome.out, "give the h and the horizon of your bonds");
 }
 
 TEST(CheckPeriodic, what_is_no_periodic_box_is_refused)
@@ -175,6 +184,17 @@ TEST(CheckPeriodic, what_is_no_periodic_box_is_refused)
                  "node 226 at (-0.0333333, 0.0333333) lies outside of the periodic box "
                  "from (0, 0) to (1, 1); give each node once, inside of the box, "
                  "and leave out ghost nodes");
+  Torus far(.5);
+  for (Point<2> &x : far.nodes)
+    x += Point<2>(100, -50);
+  const std::string box = "--set 'Domain/boxes=100, -50 : 101, -49' ";
+  EXPECT_EQ(far.check(box).exit_code, 0);
+  far.nodes[0][0] -= h;
+  expect_refused(far.check(box), "node 1 at (99.9667, -49.9667) lies outside of the periodic box "
+                                 "from (100, -50) to (101, -49)");
+  expect_refused(run("check " + write("alone.csv", "id,x,y,volume\n1,.5,.5,.0625\n") + " " +
+                     bonds_file + " --scene " + scene_file),
+                 "none of the 1 nodes lies in the interaction domain around the domain");
   Torus closed(0); // as by linspace with both ends
   closed.nodes.emplace_back(1, h);
   expect_refused(closed.check(), "node 226 is node 16 or its image on the opposite side");

@@ -140,8 +140,8 @@ TEST(Command, refuses_bad_input_with_2_and_leaves_nothing)
   expect_refusal("--set 'Problem/solution=case1: x; case2: y; case3: log(x)'", "gives");
   expect_refusal("--methods IPA", "method 'IPA' is not known; choose one of FA, LAMMPS");
   expect_refusal("--budget -1", "--budget is negative");
-  expect_refusal("--ranks 64", "--ranks = 64 is of --estimate alone, which runs nothing; add "
-                               "--estimate, or run on so many ranks by mpirun -np 64");
+  expect_refusal("--ranks 64", "--ranks = 64 applies only to --estimate, which runs nothing; add "
+                               "--estimate, or run on that many ranks by mpirun -np 64");
   expect_refusal("--estimate --json",
                  "--estimate prints a text table and cannot be combined with --json");
   expect_refusal("--set Domain/mesh=no.geo", "Domain/mesh: mesh file");
@@ -276,7 +276,7 @@ TEST(Command, interrupted_twice_ends_at_once_and_keeps_what_is_finished)
   EXPECT_TRUE(WIFSIGNALED(status));
   const std::string said = read(err);
   expect_found(said, "Ctrl-C again: ends now, finished results are kept");
-  expect_found(said, "interrupted again: ended at once; what was finished before is kept");
+  expect_found(said, "interrupted again: ended at once; finished results are kept");
   fs::remove(err);
   const Outcome outcome = run("report " + folder.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

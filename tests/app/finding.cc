@@ -75,6 +75,7 @@ TEST(Finding, refusals_name_what_may_be_meant)
   expect_refused(one + " --thread 2", "did you mean --threads?");
   expect_found(run("moduli 1 --threads 2").err, "the argument '1 --threads 2' is not known");
   expect_found(run("dispersoin").err, "did you mean dispersion?");
+  expect_found(run("rnu x.prm").err, "'rnu' is not a command; did you mean run?");
   expect_found(run("list kernel").err, "did you mean kernels?");
   expect_found(run("template scalr").err, "did you mean scalar?");
   expect_refused(one + " --set Study/h=0.0833333", "(12.0000048 cells)");
@@ -136,7 +137,8 @@ TEST(Finding, new_writes_a_scene_that_runs_and_overwrites_none)
       run("run " + bar + ".prm --levels 1 --methods FA --quiet -o " + bar + "_out" + coarse_bar)
           .exit_code,
       0);
-  expect_found(run("new " + cube + "_k --kind variational --domain cube").err, "write constrained");
+  expect_found(run("new " + cube + "_k --kind variational --domain cube").err,
+               "'cube', but --kind variational allows square only");
   expect_found(run("new " + name.string() + "2 --domain no.geo").err, "mesh file 'no.geo'");
   expect_found(run("new " + name.string() + "2 --domain no.stl").err, "a mesh file .geo or .msh");
   expect_found(run("new " + name.string() + "2 --kind variational --domain no.geo").err,
@@ -168,17 +170,30 @@ TEST(Finding, new_takes_dimension_sizes_and_cells_from_a_mesh_file)
   expect_found(plate, "quadrilaterals");
   expect_found(plate, "IPA-AC-R2, Q1\n");
   // two squares of Ω and a layer of width 1 around them, which has no sizes to change
-  const std::string square =
-      write("square.geo",
-            "Point(1) = {0, 0, 0, .5}; Point(2) = {1, 0, 0, .5}; Point(3) = {1, 1, 0, .5};"
-            "Point(4) = {0, 1, 0, .5}; Point(5) = {-1, -1, 0, .5};"
-            "Point(6) = {2, -1, 0, .5}; Point(7) = {2, 2, 0, .5}; Point(8) = {-1, 2, 0, .5};"
-            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};"
-            "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};"
-            "Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8}; Plane Surface(1) = {1};"
-            "Plane Surface(2) = {2, 1}; Physical Surface(\"omega\") = {1};"
-            "Physical Surface(\"collar\") = {2};\n");
-  expect_found(made(square), "is the same at all levels: one level is in the scene");
+  const auto square =
+      [](const std::string &lower, const std::string &upper, const std::string &more)
+  {
+    const auto point = [](int i, const std::string &x, const std::string &y)
+    { return "Point(" + std::to_string(i) + ") = {" + x + ", " + y + ", 0, .5};"; };
+    return write("square.geo",
+                 point(1, "0", "0") + point(2, "1", "0") + point(3, "1", "1") + point(4, "0", "1") +
+                     point(5, lower, lower) + point(6, upper, lower) + point(7, upper, upper) +
+                     point(8, lower, upper) +
+                     "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};"
+                     "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};"
+                     "Curve Loop(1) = {1:4}; Curve Loop(2) = {5:8}; Plane Surface(1) = {1};"
+                     "Plane Surface(2) = {2, 1}; Physical Surface(\"omega\") = {1};"
+                     "Physical Surface(\"collar\") = {2};" +
+                     more + "\n");
+  };
+  expect_found(made(square("-1", "2", "")), "is the same at all levels: the scene has one level");
+  // a layer of three sides of length √2 / 4, which four digits round up
+  const std::string exact = made(square("-1.06066017177982", "2.06066017177982",
+                                        "Transfinite Curve{1:4} = 5; Transfinite Surface{1};"));
+  expect_found(exact, "set Study/m = 3\n");
+  expect_found(exact, "set Study/h = 0.353553390");
+  // entries on tetrahedra are for scalar kernels
+  expect_found(made(meshes + "three_d/ball.geo --kind elastic"), "= FA, IPA-AC, IPA-AC-R2\n");
 }
 
 TEST(Finding, several_words_are_one_phrase)
@@ -209,6 +224,10 @@ TEST(Finding, what_is_wrong_after_the_scene_was_read_is_told_with_its_line)
   expect_refused("run " +
                      write("early.prm", "set Methods/names = FA\n\nset Problem/solution = q\n"),
                  "early.prm', line 3: Problem/solution = 'q' does not parse");
+  expect_refused("run " + file + " --set Problem/solution=x^2 --methods Foo",
+                 "plumbline: Methods/names: method 'Foo' is not known");
+  expect_refused("stability " + file + " --set Problem/solution=x^2 --methods Foo",
+                 "plumbline: Methods/names: method 'Foo' is not known");
 }
 
 TEST(Finding, new_writes_a_crack_in_si_units_that_runs)

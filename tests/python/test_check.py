@@ -240,3 +240,10 @@ def test_nodes_on_the_sides_of_a_periodic_box(square):
                             plumbline.Kernel("linear-decay", horizon=3 * h, diffusion=.5),
                             boxes=square, h=h, boundary="periodic", require="moments=0.1")
     assert found.passed and found["rule"] == "FA"
+
+
+@pytest.mark.parametrize("thickness", [.1, 1 / H**2])
+def test_volumes_of_a_plate_are_told_before_all_else(square, thickness):
+    found = check(made(square), square, volumes=VOLUMES * thickness)
+    assert not found.passed and "volumes" in found["causes"][0]["text"]
+    assert found["volume_factor"] == pytest.approx(thickness)

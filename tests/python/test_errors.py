@@ -1,5 +1,6 @@
 """A wrong argument is told by our message, as an exception of Python's kinds."""
 import os
+import pickle
 import subprocess
 import sys
 
@@ -120,7 +121,7 @@ def test_a_kernel_takes_the_file_of_its_table(tmp_path):
      lambda: plumbline.Kernel("bond-tensor", E=200e9)),
     (["did you mean diffusion?"], lambda: plumbline.Kernel("constant", .3, difusion=1)),
     (["the argument horizon is missing"], lambda: plumbline.Kernel("constant")),
-    (["at most 2 arguments without a name", "diffusion", "by name"], lambda: plumbline.Kernel("constant", .3, 1)),
+    (["at most 2 positional arguments", "diffusion", "by name"], lambda: plumbline.Kernel("constant", .3, 1)),
     (["horizon = 'x' is not a number"], lambda: plumbline.Kernel("constant", "x")),
     (["Problem: kernel = 3 is not a plumbline.Kernel"], lambda: plumbline.Problem(3)),
     (["Problem.of_scene has no argument levels", "did you mean level?"],
@@ -130,6 +131,11 @@ def test_a_kernel_takes_the_file_of_its_table(tmp_path):
     (["space.Kernel: the argument horizon is missing"], lambda: plumbline.space.Kernel("constant")),
     (["Kernel.moment has no argument c"], lambda: KERNEL.moment((0, 0), c=1)),
     (["xi = 'x' is not an array of numbers"], lambda: KERNEL("x")),
+    (["solve: problem = None is not a plumbline.Problem"], lambda: plumbline.solve(None, "FA")),
+    (["reference: problem = None is not a plumbline.Problem"], lambda: plumbline.reference(None)),
+    (["matrix: problem = None is not a plumbline.Problem"], lambda: plumbline.matrix(None, "FA")),
+    (["problem = None is not a plumbline.space.Problem"], lambda: plumbline.space.solve(None, "FA")),
+    (["space.matrix", "give problem"], lambda: plumbline.space.matrix(None, "FA")),
     (["set_threads(-1)", "out of range"], lambda: plumbline.set_threads(-1)),
     (["Solution has no constructor"], lambda: plumbline.Solution()),
 ])
@@ -140,6 +146,12 @@ def test_arguments_are_told_by_name_with_those_that_are_allowed(words, action):
         assert word in str(caught.value)
     for foreign in ("incompatible", "_core", "Invoked with", "\n"):
         assert foreign not in str(caught.value)
+
+
+def test_public_functions_can_be_pickled():
+    for one in (plumbline.run, plumbline.check, plumbline.weights, plumbline.solve, plumbline.kernels,
+                plumbline.space.solve, plumbline.Problem.of_scene):
+        assert pickle.loads(pickle.dumps(one)) is one
 
 
 def test_every_public_function_and_class_explains_its_arguments():

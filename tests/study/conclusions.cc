@@ -243,7 +243,7 @@ TEST(Conclusions, an_expectation_that_levels_are_missing_for_says_so)
     EXPECT_FALSE(results.expectations.front().holds);
     return results.expectations.front().found;
   };
-  const std::string told = "were left out, as by --levels";
+  const std::string told = "were left out, for example by --levels";
   EXPECT_NE(found({1e-1, 5e-2}).find(told), std::string::npos) << found({1e-1, 5e-2});
   const std::vector<double> stalls = {1e-1, 1e-1, 1e-1, 1e-1};
   EXPECT_EQ(found(stalls).find(told), std::string::npos) << found(stalls);

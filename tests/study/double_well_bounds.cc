@@ -9,6 +9,7 @@
 #include "physics/one_step_bound.h"
 #include "reference/method.h"
 #include "study/local_waves.h"
+#include "study/torus_reference.h"
 #include "study/transient.h"
 
 #include <gtest/gtest.h>
@@ -93,6 +94,30 @@ TEST(DoubleWellBounds, constants_are_those_of_a_wave)
   }
   const Record &half = results.records[1];
   EXPECT_NEAR(half["C_t of (49)"], (third + square * square * l2) / 12, .06 * half["C_t of (49)"]);
+}
+
+// of a wave of five periods, and of one that is seen shortly before its end
+TEST(DoubleWellBounds, the_reference_is_known_at_all_times)
+{
+  const auto solve = [](double final_time)
+  {
+    const scene::Scene scene =
+        torus(line({{"Time/final time", std::to_string(final_time)}, {"Study/h", "0.025"}}));
+    ProblemsInTime<2>::Loads loads;
+    ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
+    return solve_torus(scene, reference::methods(), .2, problems);
+  };
+  constexpr double final_time = 6.4;
+  const TorusSolution whole = solve(final_time);
+  const std::vector<dealii::Point<2>> nodes = {{.2, 0.}, {.26, 0.}, {.7, 0.}};
+  for (const double part : {.5 / 32, 10.5 / 32, 31.5 / 32})
+  {
+    const TorusSolution until = solve(part * final_time);
+    const auto u = whole.torus.at(nodes, whole.at(part * final_time).u),
+               exact = until.torus.at(nodes, until.torus.state.u);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      EXPECT_NEAR(u[k], exact[k], 1e-8 * 1e-3) << part;
+  }
 }
 
 TEST(DoubleWellBounds, hold_for_errors_and_energies_over_time)
@@ -335,6 +360,21 @@ TEST(LocalWaves, of_linear_models_are_given_as_expressions)
   }
 }
 
+TEST(BoundaryFunction, has_no_manufactured_load)
+{
+  for (const std::string omega : {"0.5", "smoothstep"})
+    EXPECT_NE(refusal({{"Domain/boundary", "constrained"},
+                       {"Problem/solution", "0.1*sin(2*pi*x)*cos(t), 0"},
+                       {"Time/initial displacement", ""},
+                       {"Material/boundary function", omega}})
+                  .find("manufactured loads are those of Material/boundary function = one"),
+              std::string::npos)
+        << refusal({{"Domain/boundary", "constrained"},
+                    {"Problem/solution", "0.1*sin(2*pi*x)*cos(t), 0"},
+                    {"Time/initial displacement", ""},
+                    {"Material/boundary function", omega}});
+}
+
 TEST(LocalWaves, are_refused_where_they_are_not_known)
 {
   EXPECT_NE(refusal({{"Problem/local solution", "computed"}, {"Time/damping", "1"}})
@@ -369,6 +409,7 @@ TEST(BoundaryFunction, of_an_expression_weakens_bonds)
   EXPECT_NEAR(with(smoothstep), with("smoothstep"), 1e-9 * with("smoothstep"));
   EXPECT_NE(refusal({{"Domain/boundary", "constrained"},
                      {"Problem/solution", "0, 0"},
+                     {"Problem/load", "0, 0"},
                      {"Reference/method", "none"},
                      {"Study/decisive error", "nodal L2 | exact"},
                      {"Material/boundary function", "1 + x"}})

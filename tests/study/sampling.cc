@@ -248,7 +248,7 @@ TEST(SampleStatistics, OfAQuantityThatIsPartlyThereAreNoneAndThatIsSaid)
   EXPECT_EQ(results.cases[0].sets[1].quantities.count("K"), 0);
   EXPECT_EQ(results.cases[0].sets[1].quantities.count("q"), 1);
   EXPECT_EQ(std::count(results.findings.begin(), results.findings.end(),
-                       "K of PA-AC is there for 3 of 4 samples, so that it has no statistics"),
+                       "K of PA-AC is available for 3 of 4 samples, so that it has no statistics"),
             1);
   // sample by sample, of the larger set: 2 has none
   const CaseStatistics &one = results.cases[0];

@@ -161,6 +161,9 @@ namespace plumbline::scene
         (void)make_double_well(scene, 1);
         if (material.boundary_function == BoundaryFunction::one)
           return;
+        require(scene.problem.solutions.empty() || !scene.problem.loads.empty(),
+                "Problem/load = manufactured: manufactured loads are those of Material/boundary "
+                "function = one; write that, or give Problem/load as expressions");
         if (material.boundary_function == BoundaryFunction::expression)
           return check_boundary_expression(scene);
         require(scene.domain.mesh.is_of_boxes() && scene.domain.mesh.map.empty(),
@@ -169,10 +172,6 @@ namespace plumbline::scene
                     scene.domain.mesh.name +
                     " need not have; write Material/boundary function = one, or Domain/mesh = "
                     "lattice, squares or triangles");
-        require(scene.problem.solutions.empty() || !scene.problem.loads.empty(),
-                "Problem/load = manufactured with Material/boundary function = smoothstep: its "
-                "kinks inside the ball reduce the accuracy of the quadrature (2.5e-5 of the load); "
-                "write boundary function = one, or give Problem/load as expressions");
       }
 
       /// @throws InputError  it is not in [0, 1]
@@ -187,7 +186,7 @@ namespace plumbline::scene
         return value;
       }
 
-      /// Its values at some points of the boxes; all others follow where they are taken.
+      /// Checks its values at some points of the boxes; all others are checked when evaluated.
       static void check_boundary_expression(const Scene &scene)
       {
         constexpr unsigned int n_points = 23;
@@ -263,10 +262,10 @@ namespace plumbline::scene
                            "to bound the actual error usefully",
                            number(physics::growth_factor(lipschitz, final_time)));
         facts.emplace_back(
-            "C₁, C₂ of section 6 there, C₂ with √3 as printed for three dimensions",
+            "C₁, C₂ of section 6 of that paper, C₂ with √3 as printed for three dimensions",
             number(physics::growth_factor(lipschitz, final_time)) + ", " +
                 number(physics::section_six_factor(law.c_bar(), horizon, final_time)));
-        facts.emplace_back("steps of θ schemes that the bound (52) covers: (53), ε²/C̄, as printed; "
+        facts.emplace_back("step limits of θ schemes for the bound (52): (53), ε²/C̄, as printed; "
                            "with the factor 6 of (41), at θ = ½ and 1",
                            number(physics::printed_step_limit(law)) + "; " +
                                number(physics::step_limit(law, .5)) + ", " +

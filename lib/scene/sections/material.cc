@@ -96,7 +96,7 @@ namespace plumbline::scene
     const double nu_of_bonds = is_stress ? 1. / 3 : 1. / 4;
     if (!nu.empty() && !(std::abs(value_of("Material/nu", nu) - nu_of_bonds) <= tolerance))
       throw InputError(
-          "Material/nu = " + nu + ": forces along bonds alone make a solid of nu = " +
+          "Material/nu = " + nu + ": pairwise forces along bonds imply nu = " +
           (is_stress        ? "1/3 in plane stress; write Material/nu = 0.3333"
            : dimension == 2 ? "1/4 in plane strain (1/3 in plane stress); write Material/nu = 0.25"
                             : "1/4; write Material/nu = 0.25") +

@@ -21,7 +21,7 @@ namespace plumbline::scene
         "Runge-Kutta (adaptive steps); 'theta T' with a number T in [0, 1], for example theta "
         "0.75, "
         "is the one-step scheme (18)-(19) of Jha & Lipton 2018: 0 explicit Euler, 0.5 trapezoidal, "
-        "1 implicit Euler. For T < 0.5 every oscillation grows with any step.");
+        "1 implicit Euler. For T < 0.5 every oscillation grows at any step size.");
     keys.add("steps", steps, numbers(),
              "Time steps, separated by ',', decreasing. Empty: see critical fractions. [time]");
     keys.add("critical fractions", fractions, numbers(),
