@@ -335,7 +335,8 @@ namespace plumbline::python
               "cells", [](const SolvedInSpace &one) { return to_array(centres(*one.of)); },
               "Centres of the domain's cubes, x fastest, shape (n_cells, 3) [length].")
           .def_property_readonly(
-              "h", [](const SolvedInSpace &one) { return one.of->h(); }, "Side of the cubes [length].")
+              "h", [](const SolvedInSpace &one) { return one.of->h(); },
+              "Side of the cubes [length].")
           .def_property_readonly(
               "averages",
               [](const SolvedInSpace &one)
