@@ -202,9 +202,10 @@ TEST(Finding, several_words_are_one_phrase)
   EXPECT_EQ(run("moduli --m 3 --state plane-stress").out,
             run("moduli --m 3 --state 'plane stress'").out);
   expect_refused("moduli --E 200GPa", "200 GPa are 200e9 in Pa");
-  expect_refused("run " + write("plain.prm", "set Problem/solution = x^2\nset Methods/names = FA\n"
-                                             "set Material/E = 200GPa\n"),
-                 "plain.prm', line 3: Material/E = '200GPa' does not parse: a unit or an unknown name");
+  expect_refused(
+      "run " + write("plain.prm", "set Problem/solution = x^2\nset Methods/names = FA\n"
+                                  "set Material/E = 200GPa\n"),
+      "plain.prm', line 3: Material/E = '200GPa' does not parse: a unit or an unknown name");
 }
 
 TEST(Finding, a_scene_that_is_not_there_is_told_with_its_folder_and_similar_names)

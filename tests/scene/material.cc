@@ -112,7 +112,7 @@ TEST(Material, ConstantsOfNoSolidAreRefusedByName)
   expect_solid_error({{"Material/E", ""}, {"Material/nu", ""}}, "needs one pair of constants");
   expect_solid_error({{"Material/k", "1"}, {"Material/l", "8"}}, "needs one pair of constants");
   expect_solid_error({{"Material/nu", ""}}, "Material/E needs Material/nu");
-  expect_solid_error({{"Material/model", "bond-based"}}, "make a solid of nu = 1/4");
+  expect_solid_error({{"Material/model", "bond-based"}}, "imply nu = 1/4");
   expect_solid_error({{"Material/E", "1, 2"}}, "must be one expression");
 }
 
@@ -139,7 +139,7 @@ TEST(Material, OfBondsHasTheYoungsModulusThatIsGiven)
       [&] {
         mu({{"Material/plane", "stress"}, {"Material/nu", "0.25"}});
       },
-      "make a solid of nu = 1/3 in plane stress");
+      "imply nu = 1/3 in plane stress");
   Settings in_space = {{"Domain/dimension", "3"},
                        {"Domain/boxes", "0,0,0 : 1,1,1"},
                        {"Problem/solution", "x, y, z"}};
