@@ -462,5 +462,5 @@ TEST(CheckBody, bad_input_is_refused)
   // constrained nodes do not belong to a body
   const Outcome around = Body(false).check(free_boundary);
   EXPECT_EQ(around.exit_code, 2) << around.out;
-  expect_found(around.err, "lies outside of the domain");
+  expect_found(around.err, "lies outside the domain");
 }
