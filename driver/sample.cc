@@ -216,6 +216,10 @@ namespace plumbline::driver
         folder / "samples", "# levels: " + std::to_string(options.n_levels) + "\n" + scene.text};
     if (options.is_worker)
       return take_samples(options, journals);
+    if (fs::exists(journals.folder) && !fs::is_directory(journals.folder))
+      throw InputError("'" + journals.folder.string() +
+                       "' is a file, but samples are written to a folder of this name; remove the "
+                       "file, or choose another output folder (-o)");
 
     const study::SamplingPlan plan = study::make_sampling_plan(scene);
     study::sample_taker(scene, all_methods()).check(scene, folder, n_processes(options, plan));

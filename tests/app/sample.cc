@@ -384,6 +384,19 @@ namespace
   }
 } // namespace
 
+TEST(SampleCommand, refuses_a_file_where_samples_go)
+{
+  const fs::path folder = temporary("sample");
+  fs::create_directories(folder);
+  std::ofstream(folder / "samples") << "mine";
+  const Outcome outcome = run(smooth() + " -o " + folder.string());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  expect_found(outcome.err, "samples' is a file, but samples are written to a folder");
+  EXPECT_EQ(read(folder / "samples"), "mine");
+  EXPECT_FALSE(fs::exists(folder / "sample.json"));
+  fs::remove_all(folder);
+}
+
 TEST(SampleCommand, writes_weights_and_modes)
 {
   const fs::path folder = temporary("sample");
