@@ -323,7 +323,7 @@ namespace plumbline::check
     }
 
     /// The horizon is not that of the bonds: it differs by more than a spacing, or there are nodes
-    /// of a lattice between the longest bond and it, or cells there that bonds reach are outside of
+    /// of a lattice between the longest bond and it, or bonds of a lattice reach cells outside of
     /// the ball.
     bool is_other_horizon(const Findings &found)
     {

@@ -151,7 +151,7 @@ def conclusions(predicted):
             text = (f"an iteration is {ratio:.1f} times as fast on {RANKS[-1]} ranks as on {RANKS[0]}; ideal: "
                     f"{gain:g}; {last['ranks at work']:g} ranks have planes")
         else:
-            text = (f"with as many cells on each rank, an iteration on {RANKS[-1]} ranks takes {1 / ratio:.2f} times as "
+            text = (f"with constant work per rank, an iteration on {RANKS[-1]} ranks takes {1 / ratio:.2f} times as "
                     f"long as on {RANKS[0]}")
         lines.append(f"- *{one['study'].capitalize()} scaling, {one['body']}*: {text}. Messages take {100 * share:.0f} % "
                      f"of the time there.")
@@ -172,7 +172,7 @@ def page(root, program, work, pictures):
     example = shlex.join(command([1000, 1000, 1000], 1 / 1000, RANKS[-1]))
     parts = [
         "# Many ranks: messages and time", "",
-        "In three dimensions, ranks share a box in slabs of planes ([parallel runs](run.md#parallel-runs)). This page gives "
+        "In three dimensions, ranks own slabs of planes of a box ([parallel runs](run.md#parallel-runs)). This page gives "
         "the number and volume of their messages, and predicts by a model how long an iteration takes on a cluster. The "
         "build of this site runs the commands and draws the charts. The measured values are those of "
         "`benchmarks/ranks.csv`, which the program `benchmarks/ranks` writes.", "",
@@ -187,7 +187,7 @@ def page(root, program, work, pictures):
         "The counts of the first two operations follow from the slabs alone and are exact. Tests on 1, 2, 3, 4 and 8 ranks "
         "compare those of the operator with the messages that are posted, and those of the preconditioner with the sizes "
         "that FFTW reports. In transient analyses, consistent masses of `Q1` send further planes, which the model leaves "
-        "out. A rank computes the planes that need no planes of others while those are on their way; the model does not "
+        "out. A rank computes planes that need no data of other ranks while messages are in transit; the model does not "
         "take the time that this saves into account.", "",
         "## Model of a cluster", "",
         "`plumbline run SCENE --estimate --ranks P` prints the model for scenes whose domain is one box and runs nothing. "

@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,6 +16,13 @@ namespace plumbline::geometry
     Point<dim> lower, upper; ///< [length]
 
     double side(unsigned int d) const { return upper[d] - lower[d]; }
+
+    /// Whether the nearest image of a node lies across the sides of axis d.
+    /// @param xi  from another node to it as they lie in the box [length]
+    bool crosses(const Point<dim> &xi, unsigned int d) const
+    {
+      return 2 * std::abs(xi[d]) > side(d);
+    }
 
     /// The shortest vector from a node to the images of another.
     /// @param xi  from the one to the other as they lie in the box [length]

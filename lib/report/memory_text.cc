@@ -33,9 +33,9 @@ namespace plumbline::report
       return "time = work + α messages + β bytes sent; assumed: α = " +
              rounded(micro * rates.latency) + " µs, β = 1 / (" + rounded(1 / (nano * rates.byte)) +
              " GB/s),\nwork " + rounded(nano * rates.bond) +
-             " ns an entry of the operator at a node, " + rounded(nano * rates.level) +
-             " ns a value and level of a sine\ntransform, " + rounded(nano * rates.value) +
-             " ns a number of a vector (benchmarks/ranks measures them)";
+             " ns per entry of the operator at a node, " + rounded(nano * rates.level) +
+             " ns per value and level of a\nsine transform, " + rounded(nano * rates.value) +
+             " ns per number of a vector (benchmarks/ranks measures them)";
     }
 
     std::vector<Cell> cells(const study::TimeOfLevel &level, const std::string &operation,

@@ -104,9 +104,9 @@ namespace plumbline::study
       return path;
     }
 
-    /// At twice as many times until the polynomials between the times of the last path give the
-    /// states halfway to 1e-8 of the largest value. Those of the path that is kept are of degree 5,
-    /// and so 64 times as accurate.
+    /// Doubles the number of times until the polynomials between those of the last path give the
+    /// states halfway to 1e-8 of the largest value. The kept path has half the spacing; degree 5
+    /// makes it 64 times as accurate.
     void follow(const scene::Scene &scene, const Transient &transient, const analysis::State &start,
                 TorusSolution &solution)
     {
@@ -130,6 +130,12 @@ namespace plumbline::study
         if (change <= tolerance * size)
           return;
       }
+      throw InputError(
+          "Time/a priori bounds = true: " + std::to_string(most) +
+          " states of the torus reference are too few for errors over all of Time/final "
+          "time = " +
+          base::to_text(scene.time.final_time, 6) +
+          "; shorten it, or write Time/a priori bounds = false");
     }
   } // namespace
 

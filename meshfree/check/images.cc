@@ -79,11 +79,9 @@ namespace plumbline::meshfree
       for (const unsigned int cell : family.neighbours)
       {
         const std::size_t k = cells.source[cell];
+        const Point<2> moved(nodes.places[k] - nodes.places[nodes.original[k]]);
         for (unsigned int d = 0; d < 2; ++d)
-          result[d] += std::abs(nodes.places[k][d] - nodes.places[nodes.original[k]][d]) >
-                               .5 * nodes.box->side(d)
-                           ? 1
-                           : 0;
+          result[d] += nodes.box->crosses(moved, d) ? 1 : 0;
       }
     return result;
   }

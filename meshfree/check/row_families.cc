@@ -78,7 +78,7 @@ namespace plumbline::meshfree
       for (const std::vector<Row> &family : rows)
         for (const Row &row : family)
           for (unsigned int d = 0; d < 2; ++d)
-            if (std::abs(row.bond.xi[d]) > .5 * nodes.box->side(d))
+            if (nodes.box->crosses(row.bond.xi, d))
               throw InputError(source.place(row.line) + "this bond is " +
                                base::to_text(row.bond.xi.norm(), 6) +
                                " long, which exceeds half a side of the periodic box and what the "

@@ -424,11 +424,11 @@ namespace plumbline::meshfree
       std::vector<std::size_t> result(3);
       for (std::size_t f = 0; f < given.free.size(); ++f)
         for (const unsigned int j : given.families[f].neighbours)
+        {
+          const Point<3> xi(given.places[j] - given.places[given.free[f]]);
           for (unsigned int d = 0; d < 3; ++d)
-            result[d] += std::abs(given.places[j][d] - given.places[given.free[f]][d]) >
-                                 .5 * given.box->side(d)
-                             ? 1
-                             : 0;
+            result[d] += given.box->crosses(xi, d) ? 1 : 0;
+        }
       return result;
     }
 

@@ -164,7 +164,7 @@ TEST(CheckPeriodic, mistakes_at_the_sides_are_named)
 // weights for m = 3 and a scene with m = 2: no cause is named in vain
 TEST(CheckPeriodic, bonds_beyond_the_horizon_are_doubted)
 {
-  const Outcome outcome = Torus(.5).check("--set Study/m=2");
+  const Outcome outcome = Torus(.5, "FA").check("--set Study/m=2");
   EXPECT_EQ(outcome.exit_code, 1);
   expect_found(outcome.out, "the longest bond is ");
   expect_found(outcome.out, "give the h and the horizon of your bonds");

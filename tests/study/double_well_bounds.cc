@@ -107,6 +107,7 @@ TEST(DoubleWellBounds, the_reference_is_known_at_all_times)
     ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
     return solve_torus(scene, reference::methods(), .2, problems);
   };
+  EXPECT_THROW((void)solve(100), InputError); // some 80 periods
   constexpr double final_time = 6.4;
   const TorusSolution whole = solve(final_time);
   const std::vector<dealii::Point<2>> nodes = {{.2, 0.}, {.26, 0.}, {.7, 0.}};
@@ -363,16 +364,15 @@ TEST(LocalWaves, of_linear_models_are_given_as_expressions)
 TEST(BoundaryFunction, has_no_manufactured_load)
 {
   for (const std::string omega : {"0.5", "smoothstep"})
-    EXPECT_NE(refusal({{"Domain/boundary", "constrained"},
-                       {"Problem/solution", "0.1*sin(2*pi*x)*cos(t), 0"},
-                       {"Time/initial displacement", ""},
-                       {"Material/boundary function", omega}})
-                  .find("manufactured loads are those of Material/boundary function = one"),
+  {
+    const std::string told = refusal({{"Domain/boundary", "constrained"},
+                                      {"Problem/solution", "0.1*sin(2*pi*x)*cos(t), 0"},
+                                      {"Time/initial displacement", ""},
+                                      {"Material/boundary function", omega}});
+    EXPECT_NE(told.find("manufactured loads are those of Material/boundary function = one"),
               std::string::npos)
-        << refusal({{"Domain/boundary", "constrained"},
-                    {"Problem/solution", "0.1*sin(2*pi*x)*cos(t), 0"},
-                    {"Time/initial displacement", ""},
-                    {"Material/boundary function", omega}});
+        << told;
+  }
 }
 
 TEST(LocalWaves, are_refused_where_they_are_not_known)
