@@ -107,7 +107,7 @@ TEST(DoubleWellBounds, the_reference_is_known_at_all_times)
     ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
     return solve_torus(scene, reference::methods(), .2, problems);
   };
-  EXPECT_THROW((void)solve(100), InputError); // some 80 periods
+  EXPECT_THROW((void)solve(40), InputError); // some 30 periods
   constexpr double final_time = 6.4;
   const TorusSolution whole = solve(final_time);
   const std::vector<dealii::Point<2>> nodes = {{.2, 0.}, {.26, 0.}, {.7, 0.}};
