@@ -62,7 +62,11 @@ namespace plumbline::io
     {
       return array(values);
     }
-    static Json json(std::array<double, 2> &values) { return array(values); }
+    template <std::size_t n>
+    static Json json(std::array<double, n> &values)
+    {
+      return array(values);
+    }
     template <typename T>
     static Json json(std::optional<T> &value)
     {
@@ -141,9 +145,12 @@ namespace plumbline::io
       if (!json.is_null())
         read(json, value.emplace(), place);
     }
-    void read(const Json &json, std::array<double, 2> &values, const std::string &place) const
+    template <std::size_t n>
+    void read(const Json &json, std::array<double, n> &values, const std::string &place) const
     {
-      expect(json.is_array() && json.size() == values.size(), place, "an array of two numbers");
+      static_assert(n == 2 || n == 3);
+      expect(json.is_array() && json.size() == n, place,
+             n == 2 ? "an array of two numbers" : "an array of three numbers");
       for (std::size_t i = 0; i < values.size(); ++i)
         read(json[i], values[i], place + "[" + std::to_string(i) + "]");
     }

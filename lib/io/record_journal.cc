@@ -17,7 +17,7 @@ namespace plumbline::io
   {
     using Json = nlohmann::ordered_json;
 
-    constexpr unsigned int version = 6; ///< of what lines mean
+    constexpr unsigned int version = 7; ///< of what lines mean
 
     void add(study::StudyResults &results, const study::StudyResults &more)
     {

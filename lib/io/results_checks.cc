@@ -83,6 +83,22 @@ namespace plumbline::io
                  "has an upper corner that is not above and right of the lower one");
       }
 
+      void blocks(const study::SolutionBlocks &blocks, const std::string &place) const
+      {
+        level(blocks, place);
+        length(blocks.side, place + ".side");
+        std::size_t n = 1;
+        for (const unsigned int of_axis : blocks.n)
+        {
+          expect(of_axis > 0 && of_axis <= most_blocks, place,
+                 "has n_x, n_y or n_z outside of [1, " + std::to_string(most_blocks) + "]");
+          n *= of_axis;
+        }
+        expect(blocks.values.size() == n, place + ".values",
+               "has " + std::to_string(blocks.values.size()) +
+                   " numbers, not n_x * n_y * n_z = " + std::to_string(n));
+      }
+
       /// f(entry, place) for each.
       template <typename Entry, typename F>
       static void each(const std::vector<Entry> &entries, const std::string &name, const F &f)
@@ -113,6 +129,9 @@ namespace plumbline::io
     Checks::each(results.maps, "maps",
                  [&](const study::ErrorMap &map, const std::string &place)
                  { checks.map(map, place); });
+    Checks::each(results.solution_blocks, "solution_blocks",
+                 [&](const study::SolutionBlocks &blocks, const std::string &place)
+                 { checks.blocks(blocks, place); });
     Checks::each(results.advice, "advice",
                  [&](const study::Advice &advice, const std::string &place)
                  {

@@ -113,6 +113,7 @@ namespace plumbline::study
     a("problem", map.problem);
     a("series", map.series);
     a("quantity", map.quantity);
+    a("axes", map.axes);
     a("h", map.h);
     a("horizon", map.horizon);
     a("lower", map.lower);
@@ -123,6 +124,23 @@ namespace plumbline::study
     a("values", map.values);
     a("n_components", map.n_components);
     a("solution", map.solution);
+  }
+
+  template <typename Archive>
+  void visit(Archive &a, SolutionBlocks &blocks)
+  {
+    a("method", blocks.method);
+    a("problem", blocks.problem);
+    a("series", blocks.series);
+    a("h", blocks.h);
+    a("horizon", blocks.horizon);
+    a("lower", blocks.lower);
+    a("side", blocks.side);
+    a("n_x", blocks.n[0]);
+    a("n_y", blocks.n[1]);
+    a("n_z", blocks.n[2]);
+    a("n_components", blocks.n_components);
+    a("values", blocks.values);
   }
 
   template <typename Archive>
@@ -147,6 +165,7 @@ namespace plumbline::study
     a("expectations", results.expectations);
     a("omissions", results.omissions);
     a("maps", results.maps);
+    a("solution_blocks", results.solution_blocks);
     a("records", results.records);
     a("savings", results.savings);
     a("left_out", results.left_out);

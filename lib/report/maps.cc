@@ -141,11 +141,14 @@ namespace plumbline::report
                  number_cell(map.lower[1] + (j + .5) * block(map, 1)), cell(value)});
     }
 
-    Table table_with(const std::string &value)
+    /// Of maps with the same axes.
+    Table table_with(const std::string &axes, const std::string &value)
     {
       Table table;
-      table.columns = {"method",     "problem",    "series", "h [length]",
-                       "x [length]", "y [length]", value};
+      table.columns = {"method", "problem", "series", "h [length]"};
+      for (const char axis : axes)
+        table.columns.push_back(axis + std::string(" [length]"));
+      table.columns.push_back(value);
       return table;
     }
   } // namespace
@@ -153,6 +156,21 @@ namespace plumbline::report
   bool is_curve(const study::ErrorMap &map)
   {
     return map.n_y == 1 && map.lower[1] == map.upper[1];
+  }
+
+  std::vector<std::vector<study::ErrorMap>> maps_by_axes(const std::vector<study::ErrorMap> &maps)
+  {
+    std::vector<std::vector<study::ErrorMap>> groups;
+    for (const study::ErrorMap &map : maps)
+    {
+      auto group = std::find_if(groups.begin(), groups.end(),
+                                [&](const std::vector<study::ErrorMap> &one)
+                                { return one.front().axes == map.axes; });
+      if (group == groups.end())
+        group = groups.insert(groups.end(), std::vector<study::ErrorMap>());
+      group->push_back(map);
+    }
+    return groups;
   }
 
   ColourScale colour_scale(const std::vector<study::ErrorMap> &maps)
@@ -203,7 +221,7 @@ namespace plumbline::report
                                 n <= 4   ? n
                                 : n <= 6 ? 3
                                          : 4,
-                                maps.front().lower, maps.front().upper);
+                                maps.front().lower, maps.front().upper, maps.front().axes);
     const ColourScale scale = colour_scale(maps);
     const int decades = static_cast<int>(std::lround(std::log10(scale.high / scale.low)));
     std::ostringstream out;
@@ -257,7 +275,7 @@ namespace plumbline::report
       plot.y_range = Range{along.low - margin, along.high + margin};
       return gnuplot_script({plot});
     }
-    const SmallMultiples panels(1, 1, map.lower, map.upper);
+    const SmallMultiples panels(1, 1, map.lower, map.upper, map.axes);
     const Range range = range_of(map.solution);
     const double high = range.high > range.low ? range.high : range.low + 1;
     std::ostringstream out;
@@ -271,14 +289,14 @@ namespace plumbline::report
 
   Table solution_table(const study::ErrorMap &map)
   {
-    Table table = table_with(symbol(map));
+    Table table = table_with(map.axes, symbol(map));
     add_rows(map, map.solution, number_cell, table);
     return table;
   }
 
   Table map_table(const std::vector<study::ErrorMap> &maps)
   {
-    Table table = table_with("|error of " + maps.front().quantity + "|");
+    Table table = table_with(maps.front().axes, "|error of " + maps.front().quantity + "|");
     for (const study::ErrorMap &map : maps)
       add_rows(map, map.values, error_cell, table);
     return table;

@@ -15,6 +15,9 @@ namespace plumbline::report
   /// Of a problem on intervals: values along x.
   bool is_curve(const study::ErrorMap &map);
 
+  /// Those with the same axes, which are drawn together; in the order of the first of each.
+  std::vector<std::vector<study::ErrorMap>> maps_by_axes(const std::vector<study::ErrorMap> &maps);
+
   /// Of the colours of all maps together: from the smallest positive value, though not below
   /// round-off if anything is above that, to the largest; at least one decade, and whole ones if
   /// there are few. What lies below, zero too, has the colour of the lower end.
@@ -27,8 +30,8 @@ namespace plumbline::report
   /// "case1, m = 3, h = 0.05: ..."; without h if the maps differ in it.
   std::string map_title(const std::vector<study::ErrorMap> &maps);
 
-  /// The commands that draw all maps into one picture, side by side on one colour scale; errors
-  /// along a line as curves.
+  /// The commands that draw maps with the same axes into one picture, side by side on one colour
+  /// scale; errors along a line as curves.
   /// @param methods  with their families, for the styles of curves
   /// @pre  at least one map
   std::string map_script(const std::vector<study::ErrorMap> &maps, const std::string &file,

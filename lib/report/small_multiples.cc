@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace plumbline::report
 {
@@ -43,8 +44,8 @@ namespace plumbline::report
 
   SmallMultiples::SmallMultiples(std::size_t n, std::size_t n_columns,
                                  const std::array<double, 2> &lower,
-                                 const std::array<double, 2> &upper)
-      : n_(n), n_columns_(n_columns), lower_(lower), upper_(upper),
+                                 const std::array<double, 2> &upper, std::string axes)
+      : n_(n), n_columns_(n_columns), lower_(lower), upper_(upper), axes_(std::move(axes)),
         left_(left_margin(lower[1], upper[1]))
   {
     const double aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
@@ -105,7 +106,7 @@ namespace plumbline::report
     out << "set " << name << "range [" << exact(lower_[d]) << ":" << exact(upper_[d]) << "]\nset "
         << name << "tics nomirror " << exact(tick_step(lower_[d], upper_[d])) << "\nset format "
         << name << " '" << (has_figures ? "%g" : "") << "'\nset " << name << "label '"
-        << (has_figures ? std::string(1, name) + " [length]" : "") << "'"
+        << (has_figures ? std::string(1, axes_[d]) + " [length]" : "") << "'"
         << (name == 'y' ? " offset 1.5,0" : "") << "\n"; // off the picture's edge
     return out.str();
   }

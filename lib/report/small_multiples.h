@@ -15,8 +15,9 @@ namespace plumbline::report
   {
   public:
     /// @param lower, upper  corners of what each panel shows
+    /// @param axes          names of the coordinates across and up
     SmallMultiples(std::size_t n, std::size_t n_columns, const std::array<double, 2> &lower,
-                   const std::array<double, 2> &upper);
+                   const std::array<double, 2> &upper, std::string axes = "xy");
 
     double panel_width() const { return panel_width_; }
 
@@ -39,6 +40,7 @@ namespace plumbline::report
 
     std::size_t n_, n_columns_;
     std::array<double, 2> lower_, upper_;
+    std::string axes_;
     double left_; ///< margin for the figures of the y axis and its label [pixel]
     double panel_width_, panel_height_, height_;
   };

@@ -1,5 +1,6 @@
 #include "report/maps.h"
 #include "report/statics_view.h"
+#include "report/surfaces.h"
 #include "scene/choices.h"
 #include "study/solution_record.h"
 #include "study/trend.h"
@@ -285,35 +286,80 @@ namespace plumbline::report
       return text.empty() ? "" : " Not in it, since methods share it: " + text + " of CPU time.";
     }
 
+    /// "" for xy: the only maps of a problem in the plane or on a line.
+    std::string ending(const study::ErrorMap &map)
+    {
+      return map.axes == "xy" ? "" : "-" + map.axes;
+    }
+
+    /// @param groups  see maps_by_axes()
+    std::vector<Picture> solution_pictures(const StudyResults &results,
+                                           const std::vector<std::vector<study::ErrorMap>> &groups)
+    {
+      const std::vector<MethodName> names = methods(results);
+      std::vector<Picture> pictures;
+      for (const auto &maps : groups)
+        if (const study::ErrorMap *map = solution_map(maps, names))
+        {
+          const std::string name = "solution" + ending(*map);
+          pictures.push_back({name, solution_title(*map),
+                              solution_script(*map, name + ".svg", names), "",
+                              solution_table(*map)});
+        }
+      if (const auto &blocks = results.solution_blocks; !blocks.empty())
+      {
+        const auto is_reference = [&](const study::SolutionBlocks &one)
+        {
+          return std::any_of(names.begin(), names.end(),
+                             [&](const MethodName &method)
+                             { return method.name == one.method && method.is_reference(); });
+        };
+        const auto found = std::find_if(blocks.begin(), blocks.end(), is_reference);
+        const study::SolutionBlocks &shown = found == blocks.end() ? blocks.front() : *found;
+        if (const std::string script = surfaces_script(shown, "surfaces.svg"); !script.empty())
+          pictures.push_back({"surfaces", surfaces_title(shown), script, "", blocks_table(shown)});
+      }
+      return pictures;
+    }
+
     /// The solution, and where each method errs.
     std::vector<Gallery> map_galleries(const StudyResults &results)
     {
-      const std::vector<MethodName> names = methods(results);
-      const bool is_line = !results.maps.empty() && is_curve(results.maps.front());
+      if (results.maps.empty())
+        return {};
+      const bool is_line = is_curve(results.maps.front());
+      const auto groups = maps_by_axes(results.maps);
+      const bool is_in_space = groups.size() > 1;
       std::vector<Gallery> galleries;
-      if (const study::ErrorMap *map = solution_map(results.maps, names))
+      if (std::vector<Picture> pictures = solution_pictures(results, groups); !pictures.empty())
         galleries.push_back(
             {"solution",
              "The solution",
              std::string("Mean of u (of |u| for vectors) in each block of cells at "
                          "the finest level") +
-                 (is_line ? "."
-                          : "; in three dimensions, of the middle layer. White: "
-                            "outside the domain."),
+                 (is_line ? "." : ". White: outside the domain.") +
+                 (is_in_space ? " In the three layers of cells through the middle of the body, "
+                                "and as surfaces of equal u."
+                              : ""),
              {},
-             {{"solution", solution_title(*map), solution_script(*map, "solution.svg", names), "",
-               solution_table(*map)}}});
-      if (!results.maps.empty())
-        galleries.push_back(
-            {"maps",
-             "Where the error sits",
-             is_line ? "The largest error of the cell averages in each block of cells at the "
-                       "finest level. At the nodes a method may be more or less accurate."
-                     : "The largest error in each block of cells at the finest level. One colour "
-                       "scale for all methods; dark is accurate, white lies outside the domain.",
-             {},
-             {{"error-maps", map_title(results.maps),
-               map_script(results.maps, "error-maps.svg", names), "", map_table(results.maps)}}});
+             std::move(pictures)});
+      Gallery errors{"maps",
+                     "Where the error sits",
+                     is_line
+                         ? "The largest error of the cell averages in each block of cells at the "
+                           "finest level. At the nodes a method may be more or less accurate."
+                         : "The largest error in each block of cells at the finest level. One "
+                           "colour scale for all methods; dark is accurate, white lies outside "
+                           "the domain.",
+                     {}};
+      for (const auto &maps : groups)
+      {
+        const std::string name = "error-maps" + ending(maps.front());
+        errors.pictures.push_back({name, map_title(maps),
+                                   map_script(maps, name + ".svg", methods(results)), "",
+                                   map_table(maps)});
+      }
+      galleries.push_back(std::move(errors));
       return galleries;
     }
   } // namespace

@@ -238,11 +238,12 @@ namespace plumbline::study
                return one.method == method.name() && one.series == place.series().name &&
                       one.level == place.number();
              });
-        take(results_.maps, control_.earlier.maps,
-             [&](const ErrorMap &one) {
-               return place.is_finest() && one.method == method.name() &&
-                      one.series == place.series().name;
-             });
+        const auto is_drawn_here = [&](const auto &one) {
+          return place.is_finest() && one.method == method.name() &&
+                 one.series == place.series().name;
+        };
+        take(results_.maps, control_.earlier.maps, is_drawn_here);
+        take(results_.solution_blocks, control_.earlier.solution_blocks, is_drawn_here);
         note_told();
         return own;
       }

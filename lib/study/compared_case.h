@@ -3,6 +3,7 @@
 #include "study/analysis.h"
 #include "study/results.h"
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -62,4 +63,8 @@ namespace plumbline::study
 
   /// Add a picture of a solution to the results.
   void add_map(const Place &place, ErrorMap map, const Record &run);
+
+  /// Add the blocks of a solution in space, unless a method of the same family has some.
+  void add_blocks(const Place &place, const std::function<SolutionBlocks()> &make,
+                  const Record &run);
 } // namespace plumbline::study

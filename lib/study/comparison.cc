@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 #include "study/motion_norms.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -328,11 +329,13 @@ namespace plumbline::study
     ++n_[block];
   }
 
-  std::vector<double> BlockMeans::means() const
+  std::vector<double> BlockMeans::means(const base::Communicator &ranks) const
   {
-    std::vector<double> means;
-    for (std::size_t i = 0; i < n_.size(); ++i)
-      means.push_back(n_[i] > 0 ? sum_[i] / n_[i] : std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> sum = sum_, n = n_, means;
+    dealii::Utilities::MPI::sum(sum, ranks.mpi, sum);
+    dealii::Utilities::MPI::sum(n, ranks.mpi, n);
+    for (std::size_t i = 0; i < n.size(); ++i)
+      means.push_back(n[i] > 0 ? sum[i] / n[i] : std::numeric_limits<double>::quiet_NaN());
     return means;
   }
 

@@ -73,7 +73,8 @@ namespace plumbline::study
     void add(std::size_t block, const double *u, unsigned int n_components);
 
     /// NaN where a block has no place.
-    std::vector<double> means() const;
+    /// @param ranks  that each added places of their own
+    std::vector<double> means(const base::Communicator &ranks = base::Communicator::alone()) const;
 
   private:
     std::vector<double> sum_, n_;

@@ -138,7 +138,8 @@ namespace plumbline::study
   struct ErrorMap
   {
     std::string method, problem, series;
-    std::string quantity; ///< "nodal values" or "cell averages"
+    std::string quantity;    ///< "nodal values" or "cell averages"
+    std::string axes = "xy"; ///< across and up: "xy", in space also "xz" and "yz"
     double h = 0, horizon = 0;
     std::array<double, 2> lower{}, upper{}; ///< corners of the bounding box [length]
     /// Blocks, at most 32 each; of a curve, a problem on intervals, up to 256 and 1: it has no
@@ -149,6 +150,19 @@ namespace plumbline::study
     unsigned int n_components = 1; ///< of u
     /// Mean of u in each block, of |u| if it is a vector; as `values`, or empty.
     std::vector<double> solution = {};
+  };
+
+  /// A solution in space at the finest level of the last problem and the first series, for pictures
+  /// of the whole body: the mean of u, of |u| if it is a vector, in blocks of cells.
+  struct SolutionBlocks
+  {
+    std::string method, problem, series;
+    double h = 0, horizon = 0;
+    std::array<double, 3> lower{}; ///< corner of the bounding box [length]
+    double side = 0;               ///< of a block [length]
+    std::array<unsigned int, 3> n{};
+    unsigned int n_components = 1; ///< of u
+    std::vector<double> values;    ///< shape (n[2], n[1], n[0]), NaN outside the domain
   };
 } // namespace plumbline::study
 

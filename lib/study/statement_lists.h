@@ -13,6 +13,7 @@ namespace plumbline::study
     action(&StudyResults::estimates);
     action(&StudyResults::savings);
     action(&StudyResults::maps);
+    action(&StudyResults::solution_blocks);
     action(&StudyResults::warnings);
   }
 } // namespace plumbline::study

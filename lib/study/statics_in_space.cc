@@ -2,7 +2,6 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
-#include "base/number_text.h"
 #include "method/another_operator.h"
 #include "physics/gauss.h"
 #include "study/compared_case.h"
@@ -10,6 +9,7 @@
 #include "study/energy.h"
 #include "study/estimate_cost.h"
 #include "study/estimate_in_space.h"
+#include "study/maps_in_space.h"
 #include "study/preflight.h"
 #include "study/reference_estimate.h"
 #include "study/round_off.h"
@@ -20,8 +20,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <utility>
 
 namespace plumbline::study
@@ -76,85 +74,6 @@ namespace plumbline::study
             });
       }
       return result;
-    }
-
-    /// The layer of cells nearest to the middle that has cells of Ω.
-    int middle_layer(const geometry::CubeLattice &lattice)
-    {
-      const int middle = lattice.n_cells()[2] / 2;
-      if (lattice.is_box())
-        return middle;
-      int nearest = -1;
-      lattice.for_each_cell(
-          [&](const std::array<int, 3> &cell)
-          {
-            if (nearest < 0 || std::abs(cell[2] - middle) < std::abs(nearest - middle))
-              nearest = cell[2];
-          });
-      return nearest;
-    }
-
-    /// The averages in a layer of cells, the same on all ranks.
-    std::vector<double> averages_in(int layer, const ProblemInSpace &problem,
-                                    const Communicator &ranks, const std::vector<double> &averages)
-    {
-      if (ranks.n_ranks() > 1)
-        return slabs_of_cells(problem.lattice, ranks)
-            .fetch(averages, plane_size(problem),
-                   [layer](unsigned int) -> base::Slabs::Range {
-                     return {layer, layer + 1};
-                   });
-      std::vector<double> result;
-      auto average = averages.begin();
-      problem.lattice.for_each_cell(
-          [&](const std::array<int, 3> &cell)
-          {
-            if (cell[2] == layer)
-              result.insert(result.end(), average, average + problem.n_components);
-            average += problem.n_components;
-          });
-      return result;
-    }
-
-    /// Errors of averages in a layer of cells in the middle: the largest in each block of cells;
-    /// and the solution's averages.
-    ErrorMap map_of_layer(const ProblemInSpace &problem, const Communicator &ranks,
-                          const std::vector<double> &all_averages,
-                          const std::vector<double> &all_targets)
-    {
-      constexpr int n_digits = 4;
-      const auto &n = problem.lattice.n_cells();
-      const int layer = middle_layer(problem.lattice), per_block = cells_per_block({n[0], n[1]});
-      ErrorMap map;
-      map.quantity =
-          "averages at z = " + base::to_text(problem.lattice.coordinate(2, layer + .5), n_digits);
-      map.h = problem.h();
-      map.horizon = problem.horizon();
-      map.n_x = (n[0] + per_block - 1) / per_block;
-      map.n_y = (n[1] + per_block - 1) / per_block;
-      map.lower = {problem.lattice.coordinate(0, 0), problem.lattice.coordinate(1, 0)};
-      map.upper = {problem.lattice.coordinate(0, per_block * static_cast<double>(map.n_x)),
-                   problem.lattice.coordinate(1, per_block * static_cast<double>(map.n_y))};
-      map.values.assign(static_cast<std::size_t>(map.n_x) * map.n_y,
-                        std::numeric_limits<double>::quiet_NaN());
-      map.n_components = problem.n_components;
-      BlockMeans means(map.values.size());
-      std::size_t place = 0;
-      const auto averages = averages_in(layer, problem, ranks, all_averages),
-                 target = averages_in(layer, problem, ranks, all_targets);
-      for_each_cell(problem.lattice, {layer, layer + 1},
-                    [&](const std::array<int, 3> &cell)
-                    {
-                      const std::size_t block =
-                          static_cast<std::size_t>(cell[1] / per_block) * map.n_x +
-                          cell[0] / per_block;
-                      double &value = map.values[block];
-                      means.add(block, &averages[place], problem.n_components);
-                      for (unsigned int c = 0; c < problem.n_components; ++c, ++place)
-                        value = std::fmax(value, std::abs(averages[place] - target[place]));
-                    });
-      map.solution = means.means();
-      return map;
     }
 
     using CaseInSpace = ComparedCase<ProblemInSpace>;
@@ -310,7 +229,15 @@ namespace plumbline::study
                              run);
         }
         if (one.drawn() && is_drawn(place_, run))
-          add_map(place_, map_of_layer(one.problem, ranks_, solution.averages, *one.drawn()), run);
+          draw(one, solution, run);
+      }
+
+      void draw(const CaseInSpace &one, const SolutionInSpace &solution, const Record &run) const
+      {
+        for (ErrorMap &map : maps_of_layers(one.problem, ranks_, solution.averages, *one.drawn()))
+          add_map(place_, std::move(map), run);
+        add_blocks(
+            place_, [&] { return solution_blocks(one.problem, ranks_, solution.averages); }, run);
       }
 
       std::vector<double> nodal_values(const problem::Field<3> &field, unsigned int n_components,

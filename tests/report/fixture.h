@@ -133,6 +133,7 @@ namespace plumbline::report::fixture
                           problems.front(),
                           "m = 3",
                           "cell averages",
+                          "xy",
                           .1,
                           .3,
                           {0, -1},

@@ -221,8 +221,9 @@ TEST(StaticsInSpace, are_drawn_and_written)
   };
   const auto results = run(make_scene({{"Study/h", "1/4, 1/8"}}), options);
   EXPECT_EQ(n_written, 1u); // of the finest level alone
-  ASSERT_EQ(results.maps.size(), 1u);
+  ASSERT_EQ(results.maps.size(), 3u);
   EXPECT_EQ(results.maps[0].quantity, "averages at z = 0.5625");
+  EXPECT_EQ(results.maps[2].quantity, "averages at x = 0.5625");
   EXPECT_EQ(results.maps[0].values.size(), 64u);
   EXPECT_EQ(results.maps[0].solution.size(), 64u);
   EXPECT_NE(report::fixture::read(folder.path() / "field.vti").find("WholeExtent=\"0 8 0 8 0 8 \""),

@@ -156,7 +156,7 @@ TEST(SolidsInSpace, are_drawn_and_written_without_what_is_outside)
   // a column on a plate, whose middle layer is the column's
   const Settings column = {{"Domain/boxes", "0,0,0 : 1,1,1/4 ; 0,0,0 : 1/4,1/4,1"}};
   const auto results = run(make_scene(with(column, {{"Study/h", "1/8"}})), options);
-  ASSERT_EQ(results.maps.size(), 1u);
+  ASSERT_EQ(results.maps.size(), 3u);
   const auto &map = results.maps[0].values;
   ASSERT_EQ(map.size(), 64u);
   for (std::size_t j = 0; j < 8; ++j)
@@ -166,6 +166,23 @@ TEST(SolidsInSpace, are_drawn_and_written_without_what_is_outside)
       EXPECT_EQ(std::isnan(results.maps[0].solution.at(8 * j + i)), i >= 2 || j >= 2);
     }
   EXPECT_EQ(results.maps[0].n_components, 1u);
+  EXPECT_EQ(results.maps[1].axes, "xz"); // through the plate beside the column
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_EQ(std::isnan(results.maps[1].values.at(8 * k + i)), k >= 2);
+  ASSERT_EQ(results.solution_blocks.size(), 1u);
+  const SolutionBlocks &blocks = results.solution_blocks[0];
+  EXPECT_EQ(blocks.n, (std::array<unsigned int, 3>{8, 8, 8}));
+  EXPECT_EQ(blocks.side, .125);
+  for (std::size_t j = 0; j < 8; ++j)
+    for (std::size_t i = 0; i < 8; ++i) // the layers of the maps are z = 1/2 and y = 1/2
+    {
+      const auto same = [](double a, double b)
+      { return a == b || (std::isnan(a) && std::isnan(b)); };
+      EXPECT_TRUE(same(blocks.values.at(8 * (8 * 4 + j) + i), results.maps[0].solution[8 * j + i]));
+      EXPECT_TRUE(same(blocks.values.at(8 * (8 * j + 4) + i), results.maps[1].solution[8 * j + i]));
+      EXPECT_TRUE(same(blocks.values.at(8 * (8 * j + i) + 4), results.maps[2].solution[8 * j + i]));
+    }
   const std::string written = report::fixture::read(folder.path() / "field.vti");
   EXPECT_EQ(n_found(written, "\n32\n"), 512u - 128 - 24);
   EXPECT_EQ(n_found(written, "nan"), 0u);
