@@ -45,6 +45,16 @@ namespace plumbline::study
       return "";
     }
 
+    /// What was found of an expectation that no trend has.
+    std::string not_run(const std::string &method, const StudyResults &results)
+    {
+      const bool is_method_run =
+          std::any_of(results.records.begin(), results.records.end(),
+                      [&](const Record &record) { return record.key.method == method; });
+      return is_method_run ? "no such case or series was run"
+                           : "the method was not run (left out, for example, by --methods)";
+    }
+
     using Check = std::function<Expectation(const scene::Expected &, const Trend &)>;
 
     void check_all(const scene::Scene &scene, scene::ExpectedKind kind, StudyResults &results,
@@ -71,7 +81,7 @@ namespace plumbline::study
         }
         if (!is_found)
           results.expectations.push_back(
-              {expected.text, what, "no such method, case or series was run", false});
+              {expected.text, what, not_run(expected.method, results), false});
       }
     }
 
