@@ -176,15 +176,20 @@ TEST(Conclusions, a_method_that_fails_at_one_level_has_failed)
 
 namespace
 {
-  /// Whether the one expectation of a scene holds for a method with these errors.
-  bool holds(const std::string &expected, const std::vector<double> &errors)
+  /// The one expectation of a scene, of a method with these errors.
+  Expectation expectation(const std::string &expected, const std::vector<double> &errors)
   {
     const auto scene = make_scene(against_exact, expected);
     StudyResults results = make_results(scene);
     add_runs(results, "A", errors);
     conclude(scene, results);
     EXPECT_EQ(results.expectations.size(), 1u) << expected;
-    return results.expectations.front().holds;
+    return results.expectations.front();
+  }
+
+  bool holds(const std::string &expected, const std::vector<double> &errors)
+  {
+    return expectation(expected, errors).holds;
   }
 } // namespace
 
@@ -236,12 +241,9 @@ TEST(Conclusions, an_expectation_that_levels_are_missing_for_says_so)
 {
   const auto found = [](const std::vector<double> &errors)
   {
-    const auto scene = make_scene(against_exact, " set verdicts = A: AC");
-    StudyResults results = make_results(scene);
-    add_runs(results, "A", errors);
-    conclude(scene, results);
-    EXPECT_FALSE(results.expectations.front().holds);
-    return results.expectations.front().found;
+    const Expectation found = expectation(" set verdicts = A: AC", errors);
+    EXPECT_FALSE(found.holds);
+    return found.found;
   };
   const std::string told = "were left out, for example by --levels";
   EXPECT_NE(found({1e-1, 5e-2}).find(told), std::string::npos) << found({1e-1, 5e-2});
@@ -256,6 +258,11 @@ TEST(Conclusions, an_expectation_of_what_was_not_run_does_not_hold)
   EXPECT_FALSE(holds(" set verdicts = A, m = 3: AC", second_order));
   EXPECT_TRUE(holds(" set verdicts = A, one, m = 2: AC", second_order));
   EXPECT_FALSE(holds(" set verdicts = A: not AC", second_order));
+
+  const auto found = [](const std::string &expected)
+  { return expectation(" set verdicts = " + expected, second_order).found; };
+  EXPECT_EQ(found("C: AC"), "the method was not run (left out, for example, by --methods)");
+  EXPECT_EQ(found("A, two: AC"), "no such case or series was run");
 }
 
 // ---- advice -------------------------------------------------------------------------------------
