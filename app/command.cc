@@ -88,10 +88,11 @@ namespace plumbline::app
     /// What the command line asks for.
     struct Request
     {
-      std::vector<std::string> settings; ///< of --set
-      unsigned int n_threads = 0;        ///< 0: one for each core
-      bool is_for_all_ranks = false;     ///< else the first rank does it
-      std::function<int()> action;       ///< gives the exit code
+      std::vector<std::string> arguments; ///< as given
+      std::vector<std::string> settings;  ///< of --set
+      unsigned int n_threads = 0;         ///< 0: one for each core
+      bool is_for_all_ranks = false;      ///< else the first rank does it
+      std::function<int()> action;        ///< gives the exit code
     };
 
     /// Of --set and of options in place of keys, whose values are not in a line of the scene.
@@ -130,6 +131,11 @@ namespace plumbline::app
           [=, &request]
           {
             options->overrides = to_overrides(request.settings);
+            if constexpr (std::is_base_of_v<SceneOptions, Options>)
+            {
+              options->arguments = request.arguments;
+              options->n_threads = request.n_threads;
+            }
             return with_scene(options->scene_file, all_overrides(*options),
                               [&] { return action(*options); });
           },
@@ -143,6 +149,23 @@ namespace plumbline::app
     }
 
     constexpr auto pdf_help = "Also draw charts and maps as PDF, beside the SVG files";
+
+    void add_threads(CLI::App &command, Request &request)
+    {
+      command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+    }
+
+    /// Of a command whose work several processes can share.
+    void add_jobs(CLI::App &command, Request &request, SceneOptions &options)
+    {
+      command
+          .add_option("--jobs", options.n_jobs,
+                      "Number of processes that share the work (default: 1)")
+          ->check(CLI::Range(1u, 4096u));
+      command.add_option("--threads", request.n_threads,
+                         "Threads of each process (default: all cores, shared among them)");
+      command.add_flag("--worker", options.is_worker)->group(""); // what it begins itself
+    }
 
     void add_run(CLI::App &app, Request &request)
     {
@@ -159,7 +182,7 @@ namespace plumbline::app
       run.add_option(
           "--budget", options->budget,
           "Skip a method at a level if it is expected to take more CPU seconds than this");
-      run.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      add_jobs(run, request, *options);
       run.add_flag("--check", options->check, "Exit with 1 if the Expected section does not hold");
       run.add_flag("--quiet", options->quiet, "Print nothing but errors");
       run.add_flag("--json", options->json, "Print results.json instead of the verdict table");
@@ -206,7 +229,10 @@ namespace plumbline::app
       check.add_option("--require", options->required, check::requirements_help)
           ->allow_extra_args(false);
       check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
-      check.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      check.add_option("--budget", options->budget,
+                       "Of a series of files: skip a level if its weights are expected to take "
+                       "more CPU seconds than this");
+      add_threads(check, request);
       check.add_flag("--quiet", options->quiet,
                      "Print nothing but errors, write nothing without -o");
       check.add_flag("--json", options->json, "Print a JSON object, write nothing without -o");
@@ -302,7 +328,10 @@ namespace plumbline::app
       command.add_option(
           "--budget", options->budget,
           "Skip a method at a level if it is expected to take more CPU seconds than this");
-      command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      if (row.has_checkpoint) // one method follows one crack
+        add_threads(command, request);
+      else
+        add_jobs(command, request, *options);
       if (row.takes_directions)
         add_directions(command, *words);
       set_action(command, request, options,
@@ -320,17 +349,9 @@ namespace plumbline::app
           app, "sample", "Uncertainty quantification: means, deviations, errors and costs",
           *options, request);
       command.add_flag("--check", options->check, "Exit with 1 if Expected/sampling fails");
-      command
-          .add_option("--jobs", options->n_jobs,
-                      "Number of parallel sampling processes (default: 1)")
-          ->check(CLI::Range(1u, 4096u));
-      command.add_option("--threads", options->n_threads,
-                         "Threads of each process (default: all cores, shared among them)");
-      command.add_flag("--worker", options->is_worker)->group(""); // what it begins itself
+      add_jobs(command, request, *options);
       command.add_option("--growth-solver", options->growth_solver)->group("");
       set_action(command, request, options, sample, true);
-      command.parse_complete_callback(
-          [=, &request] { request.n_threads = options->is_worker ? options->n_threads : 0; });
     }
 
     void add_moduli(CLI::App &app, Request &request)
@@ -395,7 +416,7 @@ namespace plumbline::app
                       "Level of the scene whose mesh size the Galerkin method takes; 1 is the "
                       "coarsest (default: the finest)")
           ->check(CLI::Range(1u, most_levels));
-      command.add_option("--threads", request.n_threads, "Threads (default: all cores)");
+      add_threads(command, request);
       command.add_flag("--quiet", options->quiet, "Print nothing but errors");
       command.add_flag("--json", options->json, "Print certificate.json instead of the table");
       set_action(command, request, options, certify, true);
@@ -600,6 +621,7 @@ namespace plumbline::app
       app.name(argv[0]);
       std::vector<std::string> arguments =
           join_numbers(join_numbers({argv + 1, argv + argc}, angles_option), directions_option);
+      request.arguments = arguments;
       std::reverse(arguments.begin(), arguments.end());
       app.parse(std::move(arguments));
     }

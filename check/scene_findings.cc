@@ -143,14 +143,32 @@ namespace plumbline::check
         record.set(error, value);
     }
 
+    /// Whether a record of the same is among those that are known; then it is taken.
+    bool take_known(const study::Records &known, study::Record &record)
+    {
+      const auto found = std::find_if(known.begin(), known.end(),
+                                      [&](const study::Record &one)
+                                      {
+                                        return one.key.method == record.key.method &&
+                                               one.key.problem == record.key.problem &&
+                                               one.key.h == record.key.h &&
+                                               one.key.horizon == record.key.horizon;
+                                      });
+      if (found != known.end())
+        record = *found;
+      return found != known.end();
+    }
+
     CaseCheck check_case(const scene::Scene &scene, const scene::Case &one, const std::string &name,
                          const ChosenLevel &chosen, const FamilySource<2> &families,
-                         const method::Methods &references)
+                         const method::Methods &references, const study::Records &known)
     {
       const problem::Problem<2> &problem = one.problem;
       const WeightsOfAFile given(families);
       const auto method = reference_method(scene, problem, references);
       CaseCheck result{record_of(given, name, chosen), record_of(*method, name, chosen)};
+      if (take_known(known, result.weights) && take_known(known, result.reference))
+        return result;
       const analysis::Solution reference =
           reference_solution(problem, *method, name + ", " + chosen.text());
       enter(scene, problem, reference, {}, result.reference);
@@ -233,7 +251,8 @@ namespace plumbline::check
            " is assumed";
   }
 
-  Findings find(scene::Scene scene, const Input &input, const method::Methods &references)
+  Findings find(scene::Scene scene, const Input &input, const method::Methods &references,
+                const study::Records &known)
   {
     check_analysis(scene, scene::Analysis::check);
     GivenBody body = body_of(scene, input);
@@ -296,7 +315,7 @@ namespace plumbline::check
     const auto names = scene.problem.case_names();
     for (unsigned int c = 0; c < names.size(); ++c)
       found.cases.push_back(
-          check_case(scene, case_of(c), names[c], found.level, source, references));
+          check_case(scene, case_of(c), names[c], found.level, source, references, known));
     return found;
   }
 } // namespace plumbline::check

@@ -71,8 +71,11 @@ namespace plumbline::check
 
   /// @param references  Galerkin methods for the solutions that those by the weights are held
   /// against
+  /// @param known       records of cases that an earlier check of the same has left: not solved
+  /// again
   /// @note Collective: the solutions are shared among the ranks.
   /// @throws InputError      files or a scene that cannot be used
   /// @throws NumericalError  no solution by the reference
-  Findings find(scene::Scene scene, const Input &input, const method::Methods &references);
+  Findings find(scene::Scene scene, const Input &input, const method::Methods &references,
+                const study::Records &known = {});
 } // namespace plumbline::check

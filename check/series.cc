@@ -1,5 +1,6 @@
 #include "check/series.h"
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "check/files.h"
@@ -15,6 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 namespace plumbline::check
 {
@@ -201,6 +204,24 @@ namespace plumbline::check
     return files;
   }
 
+  std::string subject_of(const LevelFiles &files)
+  {
+    std::string text = "check";
+    for (const Input &input : files.inputs)
+    {
+      text += "\n" + input.bonds_are;
+      for (const std::string &name : {input.nodes_file, input.bonds_file})
+      {
+        if (!fs::is_regular_file(name))
+          return ""; // a pipe, which is read once
+        std::stringstream content;
+        content << std::ifstream(name, std::ios::binary).rdbuf();
+        text += ", " + name + ": " + base::content_hash(content.str());
+      }
+    }
+    return text + "\n" + files.scene.text;
+  }
+
   Series find_series(const LevelFiles &files, const method::Methods &references,
                      const Requirements &required, const study::RunControl &control)
   {
@@ -216,13 +237,15 @@ namespace plumbline::check
         made = {
             record_of(found.levels_in_space.emplace_back(find_in_space(scene, input, required)))};
       else
-        made = records_of(found.levels.emplace_back(find(scene, input, references)));
+        made = records_of(
+            found.levels.emplace_back(find(scene, input, references, control.earlier.records)));
       for (study::Record &record : made)
       {
         record.key.series = place.series().name;
         record.key.level = place.number();
       }
     };
+    analysis.has_parts = true; // findings are made again, without solving what is known
     analysis.analyse = [&](const study::Place &, const method::Method &) { return made; };
     analysis.conclude = conclude;
     found.results =

@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "base/first_rank.h"
 #include "base/progress_line.h"
+#include "base/workers.h"
 #include "driver/interrupts.h"
+#include "driver/jobs.h"
 #include "driver/methods.h"
 #include "driver/provenance.h"
 #include "io/output_folder.h"
@@ -28,14 +30,6 @@ namespace plumbline::driver
 
   namespace
   {
-    /// All that records depend on.
-    std::string subject_of(const study::Analysis &analysis, const AnalyseOptions &options,
-                           const scene::Scene &scene)
-    {
-      return "# levels: " + std::to_string(options.n_levels) + ", " + analysis.name + ": " +
-             analysis.options + "\n" + scene.text;
-    }
-
     /// The fields of a series' finest level, each to a file.
     void write_fields(const study::Records &records, const scene::Scene &scene,
                       unsigned int n_levels, const fs::path &folder)
@@ -102,6 +96,81 @@ namespace plumbline::driver
       return check && !holds ? 1 : 0;
     }
 
+    /// An analysis of a scene by one process, that of the command or a worker.
+    class Work
+    {
+    public:
+      Work(const Task &task, const AnalyseOptions &options, const scene::Scene &scene,
+           fs::path folder)
+          : task_(task), options_(options), scene_(scene), folder_(std::move(folder)),
+            journal_(journal_file(), subject())
+      {
+      }
+
+      fs::path journal_file() const { return folder_ / (task_.file + ".jsonl"); }
+      io::RecordJournal &journal() { return journal_; }
+
+      /// Of what is made now, each record is stored at once.
+      study::RunControl control()
+      {
+        study::RunControl control;
+        control.n_levels = options_.n_levels;
+        control.budget = options_.budget;
+        control.ranks = task_.ranks;
+        control.earlier = journal_.earlier();
+        control.on_made = [this](const study::StudyResults &made)
+        { base::on_first_rank(task_.ranks, [&] { store(made); }); };
+        return control;
+      }
+
+      /// An interrupted command has left these records.
+      void take_over(const study::StudyResults &earlier) const
+      {
+        write_all_fields(earlier.records);
+        if (task_.take_over)
+          task_.take_over(earlier);
+      }
+
+      /// As RunControl::share.
+      /// @param exit_code  of workers, see make_by_workers; of several calls the largest
+      study::StudyResults share(const study::StudyResults &head,
+                                const std::vector<std::uint64_t> &tasks,
+                                base::ProgressLine &progress, int &exit_code)
+      {
+        journal_.append(head); // which they continue
+        exit_code = std::max(exit_code, make_by_workers(tasks, options_, "task", {}, &progress));
+        return io::RecordJournal(journal_file(), subject()).earlier();
+      }
+
+    private:
+      /// All that records depend on.
+      std::string subject() const
+      {
+        return "# levels: " + std::to_string(options_.n_levels) + ", " + task_.analysis.name +
+               ": " + task_.analysis.options + "\n" + scene_.text;
+      }
+
+      void store(const study::StudyResults &made)
+      {
+        journal_.append(made);
+        std::error_code code;
+        if (task_.has_checkpoint && !made.records.empty())
+          fs::remove(study::Checkpoints{folder_}.file(), code);
+        write_all_fields(made.records);
+      }
+
+      void write_all_fields(const study::Records &records) const
+      {
+        write_fields(records, scene_, options_.n_levels, folder_ / task_.analysis.name);
+      }
+
+      const Task &task_;
+      const AnalyseOptions &options_;
+      const scene::Scene &scene_;
+      fs::path folder_;
+      io::RecordJournal journal_;
+    };
+
     /// What an interrupted command has left. All ranks have read it before the first one writes,
     /// and go on from the same.
     study::StudyResults earlier_results(const Task &task, io::RecordJournal &journal)
@@ -113,6 +182,36 @@ namespace plumbline::driver
       earlier.provenance = provenance();
       earlier.provenance.insert(task.provenance.begin(), task.provenance.end());
       return earlier;
+    }
+
+    /// @throws InputError  processes cannot share the work
+    void check_sharing(const Task &task, const AnalyseOptions &options)
+    {
+      if (options.n_jobs == 1)
+        return;
+      check_jobs(options);
+      const std::string given = "--jobs = " + std::to_string(options.n_jobs);
+      if (const auto n_ranks = base::Communicator::all().n_ranks(); n_ranks > 1)
+        throw InputError(given + " on " + std::to_string(n_ranks) +
+                         " ranks: ranks share the work of each method; use either of them");
+      if (!task.goes_on)
+        throw InputError(given + ": each method is compared with its own finest level (Study/"
+                                 "decisive error), for which one process keeps all solutions; "
+                                 "leave out --jobs, or give another error");
+    }
+
+    /// What a worker does: tasks whose numbers come from standard input.
+    int run_tasks(const Task &task, const scene::Scene &scene, const method::Methods &methods,
+                  Work &work)
+    {
+      base::end_with_parent();
+      work.journal().join();
+      study::RunControl control = work.control();
+      if (task.take_over)
+        task.take_over(control.earlier);
+      control.next_task = base::next_task;
+      (void)run_study(task.analysis, scene, methods, control);
+      return 0;
     }
 
     void tell_warnings(const study::StudyResults &results)
@@ -129,7 +228,7 @@ namespace plumbline::driver
 
     /// What is wanted on standard output; what went wrong on standard error.
     void tell_end(const Task &task, const AnalyseOptions &options,
-                  const study::StudyResults &results, const fs::path &folder)
+                  const study::StudyResults &results, const fs::path &folder, bool is_interrupted)
     {
       if (options.json)
         std::cout << io::to_json(results);
@@ -139,7 +238,7 @@ namespace plumbline::driver
         const std::string page = view.files.page.empty() ? task.analysis.name : view.files.page;
         std::cout << report::study_summary(view, results, (folder / (page + ".html")).string());
       }
-      if (!results.is_complete)
+      if (is_interrupted)
         say_interrupted(folder, task.goes_on);
       if (!task.analysis.are_failures_findings)
         tell_failures(results);
@@ -150,9 +249,10 @@ namespace plumbline::driver
   } // namespace
 
   method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
-                                const method::Methods &available, unsigned int n_levels)
+                                const method::Methods &available, unsigned int n_levels,
+                                unsigned int n_jobs)
   {
-    method::Methods methods = analysis.choose_methods(scene, available, n_levels, 1);
+    method::Methods methods = analysis.choose_methods(scene, available, n_levels, n_jobs);
     if (analysis.check)
       analysis.check(scene, methods, n_levels);
     return methods;
@@ -166,56 +266,44 @@ namespace plumbline::driver
           "it out");
     if (options.pdf)
       report::require_pdf();
-    const bool is_talking = !options.quiet && base::Communicator::all().rank() == 0;
+    const bool is_talking =
+        !options.quiet && !options.is_worker && base::Communicator::all().rank() == 0;
     std::optional<base::ProgressLine> progress(is_talking);
     const fs::path folder = output_folder(options, scene);
-    const study::Checkpoints checkpoints{folder, is_interrupted};
-    const Task task = make_task(checkpoints);
-    const study::Analysis &analysis = task.analysis;
-    const method::Methods methods = check_methods(analysis, scene, all_methods(), options.n_levels);
+    const Task task = make_task({folder, is_interrupted});
+    check_sharing(task, options);
+    const method::Methods methods =
+        check_methods(task.analysis, scene, all_methods(), options.n_levels,
+                      options.is_worker ? 0 : options.n_jobs);
     progress.reset();
-    watch_interrupts();
+    if (options.is_worker)
+    {
+      Work work(task, options, scene, folder);
+      return run_tasks(task, scene, methods, work);
+    }
+    const bool is_shared = options.n_jobs > 1;
+    is_shared ? watch_interrupts(end_of_workers) : watch_interrupts();
     const io::OutputFolder output(folder, {task.command, scene.name, scene.text, note}, task.ranks);
-    const fs::path journal_file = folder / (task.file + ".jsonl");
     base::on_first_rank(task.ranks, [&] { require_writable(folder / (task.file + ".json")); });
-    io::RecordJournal journal(journal_file, subject_of(analysis, options, scene));
-
-    study::RunControl control;
-    control.n_levels = options.n_levels;
-    control.budget = options.budget;
-    control.ranks = task.ranks;
+    Work work(task, options, scene, folder);
+    study::RunControl control = work.control();
     control.should_stop = [&] { return task.ranks.any(is_interrupted()); };
-    control.earlier = earlier_results(task, journal);
+    control.earlier = earlier_results(task, work.journal());
     if (!task.note.empty() && task.ranks.rank() == 0)
       note(task.note);
     if (!control.earlier.records.empty() && is_talking)
       std::cerr << "continuing: " << report::counted(control.earlier.records.size(), "record")
-                << " in '" << journal_file.string() << "' already\n";
-    const auto write_all_fields = [&](const study::Records &records)
-    { write_fields(records, scene, options.n_levels, folder / analysis.name); };
-    control.on_made = [&](const study::StudyResults &made)
-    {
-      base::on_first_rank(task.ranks,
-                          [&]
-                          {
-                            journal.append(made);
-                            std::error_code code;
-                            if (task.has_checkpoint && !made.records.empty())
-                              fs::remove(checkpoints.file(), code);
-                            write_all_fields(made.records);
-                          });
-    };
+                << " in '" << work.journal_file().string() << "' already\n";
     progress.emplace(is_talking);
     control.on_progress = [&](const std::string &what, double fraction)
     { progress->show(what, fraction); };
-    base::on_first_rank(task.ranks,
-                        [&]
-                        {
-                          write_all_fields(control.earlier.records);
-                          if (task.take_over)
-                            task.take_over(control.earlier);
-                        });
-    const study::StudyResults results = run_study(analysis, scene, methods, control);
+    int code_of_workers = 0;
+    if (is_shared)
+      control.share = [&](const study::StudyResults &head, const std::vector<std::uint64_t> &tasks)
+      { return work.share(head, tasks, *progress, code_of_workers); };
+    control.is_shared_by_level = static_cast<bool>(task.take_over);
+    base::on_first_rank(task.ranks, [&] { work.take_over(control.earlier); });
+    const study::StudyResults results = run_study(task.analysis, scene, methods, control);
     progress.reset();
     base::on_first_rank(task.ranks,
                         [&]
@@ -224,16 +312,18 @@ namespace plumbline::driver
                           if (options.pdf)
                             report::draw_pdf(folder);
                           if (results.is_complete)
-                            journal.remove();
+                            work.journal().remove();
                         });
+    const bool is_ended_by_worker = code_of_workers > 0 && !is_interrupted();
     if (task.ranks.rank() == 0)
-      tell_end(task, options, results, folder);
-    return exit_code(task, options.check, results);
+      tell_end(task, options, results, folder, !results.is_complete && !is_ended_by_worker);
+    return is_ended_by_worker ? code_of_workers : exit_code(task, options.check, results);
   }
 
   int analyse(const AnalysisRow &row, const AnalyseOptions &options)
   {
-    end_at_interrupts();
+    if (!options.is_worker)
+      end_at_interrupts();
     scene::require_keys(row.name, options.scene_file, options.overrides);
     const auto make_task = [&](const study::Checkpoints &checkpoints)
     {

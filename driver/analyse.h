@@ -36,15 +36,19 @@ namespace plumbline::driver
 
   /// The methods that a scene names for an analysis, after all checks that come before the first
   /// record.
+  /// @param n_jobs  processes side by side; 0: its memory is checked already
   method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
-                                const method::Methods &available, unsigned int n_levels);
+                                const method::Methods &available, unsigned int n_levels,
+                                unsigned int n_jobs = 1);
 
-  /// Run an analysis over the study of a scene; print tables and verdicts; write ANALYSIS.html, .md
-  /// and .json, charts to ANALYSIS/, and there the fields of each series' finest level as VTU. A
-  /// command that was interrupted or killed takes over what it had finished, from ANALYSIS.jsonl
-  /// and checkpoint.h5. On several ranks only the task's first rank prints and writes.
+  /// Run an analysis over the study of a scene, with --jobs by worker processes; print tables and
+  /// verdicts; write ANALYSIS.html, .md and .json, charts to ANALYSIS/, and there the fields of
+  /// each series' finest level as VTU. A command that was interrupted or killed takes over what it
+  /// had finished, from ANALYSIS.jsonl and checkpoint.h5. On several ranks only the task's first
+  /// rank prints and writes.
   /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
-  ///         where that is no finding, nor expected by the scene; 130 if it was interrupted
+  ///         where that is no finding, nor expected by the scene; 130 if it was interrupted; that
+  ///         of a worker that ended badly, or 3
   /// @throws InputError  a scene that cannot be used, a folder that cannot be written
   /// @throws NumericalError  pictures cannot be drawn; all else is written before that
   int analyse(const MakeTask &make_task, const AnalyseOptions &options, const scene::Scene &scene);

@@ -13,8 +13,10 @@
 #include "driver/provenance.h"
 #include "driver/scene_input.h"
 #include "io/output_folder.h"
+#include "io/record_journal.h"
 #include "physics/kernel.h"
 #include "reference/method.h"
+#include "report/counted.h"
 #include "report/pdf.h"
 #include "scene/models/model.h"
 #include "scene/scene_keys.h"
@@ -102,56 +104,109 @@ namespace plumbline::driver
       if (check::is_series(options))
         throw InputError(given + " is for the files of one level; give names without {h}");
     }
-    /// Print the requested output, and write files if there are any.
-    /// @return  whether there are files
-    bool show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
-              const std::function<std::string()> &json, const std::function<std::string()> &text,
-              const std::function<void()> &write)
+
+    /// Whether there are files.
+    bool writes_files(const scene::Scene &scene, const CheckOptions &options)
     {
-      const bool is_silent = options.quiet || options.json;
+      return (!scene.domain.is_in_space() && !options.quiet && !options.json) ||
+             !options.output.empty();
+    }
+
+    io::OutputFolder::Owner owner_of(const scene::Scene &scene)
+    {
+      return {"check", scene.name, scene.text, note};
+    }
+
+    /// Print the requested output.
+    void print(const CheckOptions &options, const std::function<std::string()> &json,
+               const std::function<std::string()> &text)
+    {
       if (options.json)
         std::cout << json();
       else if (!options.quiet)
         std::cout << text();
-      const bool has_files = !scene.domain.is_in_space() && !is_silent;
-      if (!has_files && options.output.empty())
-        return false;
-      const io::OutputFolder output(folder, {"check", scene.name, scene.text, note},
-                                    base::Communicator::alone());
+    }
+
+    /// Print the requested output, and write files if there are any.
+    void show(const scene::Scene &scene, const CheckOptions &options, const fs::path &folder,
+              const std::function<std::string()> &json, const std::function<std::string()> &text,
+              const std::function<void()> &write)
+    {
+      print(options, json, text);
+      if (!writes_files(scene, options))
+        return;
+      const io::OutputFolder output(folder, owner_of(scene), base::Communicator::alone());
       write();
       if (options.pdf)
         report::draw_pdf(folder);
-      return true;
+    }
+
+    /// The levels of a series, from coarse to fine, and what an earlier command has left of them.
+    check::Series find_levels(const check::LevelFiles &files, const CheckOptions &options,
+                              const check::Requirements &required,
+                              std::optional<io::RecordJournal> &journal)
+    {
+      const base::Communicator ranks = base::Communicator::all();
+      base::ProgressLine progress(!options.quiet && ranks.rank() == 0);
+      study::RunControl control;
+      control.ranks = ranks;
+      control.budget = options.budget;
+      if (journal)
+        control.earlier = journal->earlier();
+      const auto n_known = static_cast<double>(control.earlier.records.size());
+      if (ranks.largest(n_known) != -ranks.largest(-n_known)) // a folder that not all ranks have
+        control.earlier = {};
+      if (!control.earlier.records.empty() && !options.quiet && ranks.rank() == 0)
+        std::cerr << "continuing: " << report::counted(control.earlier.records.size(), "record")
+                  << " already\n";
+      control.earlier.provenance = provenance();
+      control.should_stop = [&] { return ranks.any(is_interrupted()); };
+      control.on_progress = [&](const std::string &what, double fraction)
+      { progress.show(what, fraction); };
+      control.on_made = [&](const study::StudyResults &made)
+      {
+        const study::Records &known = control.earlier.records;
+        const auto is_known = [&](const study::Record &one)
+        { return one.key == made.records.front().key; };
+        if (journal && ranks.rank() == 0 &&
+            (made.records.empty() || std::none_of(known.begin(), known.end(), is_known)))
+          journal->append(made);
+      };
+      return check::find_series(files, reference::methods(), required, control);
     }
 
     int show_series(const scene::Scene &scene, const CheckOptions &options,
                     const check::Requirements &required, const fs::path &folder)
     {
       const base::Communicator ranks = base::Communicator::all();
-      const bool is_first = ranks.rank() == 0;
+      const bool is_first = ranks.rank() == 0, has_files = writes_files(scene, options);
       const check::LevelFiles files = check::find_level_files(scene, options);
       if (!files.missing.empty() && is_first)
         std::cerr << "warning: levels without files are left out: there is no " << files.missing
                   << '\n';
       watch_interrupts();
-      std::optional<base::ProgressLine> progress(!options.quiet && is_first);
-      study::RunControl control;
-      control.ranks = ranks;
-      control.earlier.provenance = provenance();
-      control.should_stop = [&] { return ranks.any(is_interrupted()); };
-      control.on_progress = [&](const std::string &what, double fraction)
-      { progress->show(what, fraction); };
-      const check::Series found =
-          check::find_series(files, reference::methods(), required, control);
-      progress.reset();
-      const bool is_written =
-          is_first && !found.results.records.empty() &&
-          show(
-              scene, options, folder, [&] { return check::to_json(found, files, required); },
-              [&] { return check::text(found, required, (folder / "report.html").string()); },
-              [&] { check::write_series(found, files, required, folder); });
-      if (is_written && !found.results.is_complete)
-        say_interrupted(folder, false);
+      std::optional<io::OutputFolder> output;
+      std::optional<io::RecordJournal> journal;
+      if (has_files)
+        output.emplace(folder, owner_of(scene), ranks);
+      if (const std::string subject = check::subject_of(files); has_files && !subject.empty())
+        journal.emplace(folder / "check.jsonl", subject);
+      const check::Series found = find_levels(files, options, required, journal);
+      const bool is_written = is_first && !found.results.records.empty();
+      if (is_written)
+        print(
+            options, [&] { return check::to_json(found, files, required); },
+            [&] { return check::text(found, required, (folder / "report.html").string()); });
+      if (is_written && has_files)
+      {
+        check::write_series(found, files, required, folder);
+        if (options.pdf)
+          report::draw_pdf(folder);
+        if (journal && found.results.is_complete)
+          journal->remove();
+        if (!found.results.is_complete)
+          say_interrupted(folder, journal.has_value());
+      }
       if (!found.results.is_complete)
         return 130;
       return check::complaints(found, required).empty() ? 0 : 1;

@@ -10,10 +10,12 @@ namespace plumbline::driver
     std::vector<std::string> required; ///< see check::parse_requirements; empty: ac
     bool quiet = false, json = false;  ///< with either of them files are written with -o only
     bool pdf = false;                  ///< maps as PDF, besides SVG
+    double budget = 0;                 ///< of one level of a series [CPU s]; 0: any
   };
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,
   /// solutions; outliers among bonds and nodes; what was done to all weights.
+  /// A series goes on where it was interrupted or killed, from check.jsonl.
   /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
   /// check.json; of a series of files levels.csv, a page for each level, and that of the study. In
   /// space check.json and levels.csv alone, with an output folder.

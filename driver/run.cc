@@ -231,7 +231,8 @@ namespace plumbline::driver
 
   int run(const RunOptions &options)
   {
-    end_at_interrupts();
+    if (!options.is_worker)
+      end_at_interrupts();
     const scene::Scene scene = read(options);
     if (options.is_estimate && options.json)
       throw InputError(

@@ -6,6 +6,7 @@
 #include "base/progress_line.h"
 #include "base/workers.h"
 #include "driver/interrupts.h"
+#include "driver/jobs.h"
 #include "driver/methods.h"
 #include "io/output_folder.h"
 #include "io/record_journal.h"
@@ -23,7 +24,6 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
-#include <thread>
 
 namespace plumbline::driver
 {
@@ -33,10 +33,7 @@ namespace plumbline::driver
   {
     scene::Scene read(const SampleOptions &options)
     {
-      if (scene::is_read_once(options.scene_file))
-        throw InputError("scene '" + options.scene_file +
-                         "' is a pipe, but each sampling process must read the scene again; save "
-                         "it to a file and pass the name of that file");
+      check_jobs(options);
       scene::Scene scene = read_scene(options);
       if (!scene.sampling.is_there())
         throw InputError("scene '" + scene.name +
@@ -117,31 +114,6 @@ namespace plumbline::driver
           std::min<std::size_t>(options.n_jobs, std::max<std::size_t>(1, plan.values.size())));
     }
 
-    /// @param n_jobs  processes side by side, of which all take what this one finds best: what
-    /// memory they find themselves depends on the others
-    std::vector<std::string> worker_arguments(const SampleOptions &options,
-                                              const scene::Scene &scene, unsigned int n_jobs,
-                                              const fs::path &folder)
-    {
-      const unsigned int n_threads =
-          options.n_threads > 0
-              ? options.n_threads
-              : std::max(1u, std::thread::hardware_concurrency() / options.n_jobs);
-      std::vector<std::string> arguments = {
-          "sample",    options.scene_file,       "--worker", "-o", folder.string(),
-          "--threads", std::to_string(n_threads)};
-      for (const scene::Override &one : options.overrides)
-        arguments.insert(arguments.end(), {"--set", one.key + "=" + one.value});
-      if (study::is_growth(scene))
-        arguments.insert(arguments.end(), {"--growth-solver",
-                                           base::word(study::expected_size(scene, n_jobs).solver)});
-      if (!options.methods.empty())
-        arguments.insert(arguments.end(), {"--methods", options.methods});
-      if (options.n_levels > 0)
-        arguments.insert(arguments.end(), {"--levels", std::to_string(options.n_levels)});
-      return arguments;
-    }
-
     /// How long samples of growth will take, before there is one.
     /// @param n_jobs  of each rank
     void tell_size(const scene::Scene &scene, std::size_t n, unsigned int n_jobs,
@@ -182,25 +154,10 @@ namespace plumbline::driver
       if (is_talking && study::is_growth(scene))
         tell_size(scene, due.size(), n_jobs, communicator.n_ranks());
       base::ProgressLine progress(is_talking);
-      std::size_t n_waits = 0;
-      const auto wait = [&]
-      {
-        constexpr std::size_t rarely = 10; // of tenths of a second
-        if (is_talking && ++n_waits % rarely == 0)
-        {
-          const auto n_done =
-              std::count_if(due.begin(), due.end(),
-                            [&](std::uint64_t i) { return fs::exists(journals.file(i)); });
-          progress.show(std::to_string(n_done) + " of " + std::to_string(due.size()) + " samples",
-                        static_cast<double>(n_done) / static_cast<double>(due.size()));
-        }
-        return !is_interrupted();
-      };
-      const std::vector<std::string> endings =
-          base::work_off(due, n_jobs, worker_arguments(options, scene, n_jobs, folder), wait);
-      for (const std::string &how : endings)
-        std::cerr << "plumbline: a process of samples " << how
-                  << "; its sample is not there, the same command tries it again\n";
+      std::vector<std::string> arguments;
+      if (study::is_growth(scene)) // all take what is best here: memory that they find is shared
+        arguments = {"--growth-solver", base::word(study::expected_size(scene, n_jobs).solver)};
+      (void)make_by_workers(due, options, "sample", arguments, &progress);
     }
   } // namespace
 
@@ -225,8 +182,7 @@ namespace plumbline::driver
     study::sample_taker(scene, all_methods()).check(scene, folder, n_processes(options, plan));
     const base::Communicator communicator = base::Communicator::all();
     const io::OutputFolder output(folder, {"sample", scene.name, scene.text, note}, communicator);
-    watch_interrupts("\ninterrupted: ending the sampling processes, then writing the results of "
-                     "finished samples; press Ctrl-C again to stop at once\n");
+    watch_interrupts(end_of_workers);
     take_all(options, scene, plan, journals, folder);
     communicator.wait();
     if (communicator.rank() != 0)

@@ -6,10 +6,7 @@ namespace plumbline::driver
 {
   struct SampleOptions : SceneOptions
   {
-    unsigned int n_jobs = 1;    ///< processes, of each rank
-    unsigned int n_threads = 0; ///< of each process; 0: the machine's, shared among them
-    bool check = false;         ///< Expected/sampling
-    bool is_worker = false;     ///< takes numbers of samples from standard input, see take_samples
+    bool check = false;        ///< Expected/sampling
     std::string growth_solver; ///< of a worker, instead of the scene's; records do not depend on it
   };
 

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,6 +59,12 @@ namespace plumbline::base
       Pipe &operator=(const Pipe &) = delete;
 
       int reading() const { return ends_[0]; }
+      std::size_t n_unread() const
+      {
+        int n = 0;
+        ioctl(ends_[0], FIONREAD, &n);
+        return static_cast<std::size_t>(n) / n_bytes;
+      }
       bool write(std::uint64_t number) const
       {
         return ::write(ends_[1], &number, n_bytes) == static_cast<ssize_t>(n_bytes);
@@ -94,14 +101,14 @@ namespace plumbline::base
       return process;
     }
 
-    /// Empty: well.
-    std::string ending(int status)
+    /// `how` is empty if it ended well.
+    BadEnding ending(int status)
     {
       if (WIFSIGNALED(status))
-        return std::string("was ended by a signal (") + strsignal(WTERMSIG(status)) + ")";
-      if (WEXITSTATUS(status) != 0)
-        return "ended with exit code " + std::to_string(WEXITSTATUS(status));
-      return "";
+        return {std::string("was ended by a signal (") + strsignal(WTERMSIG(status)) + ")"};
+      if (const int code = WEXITSTATUS(status); code != 0)
+        return {"ended with exit code " + std::to_string(code), code};
+      return {};
     }
   } // namespace
 
@@ -119,42 +126,48 @@ namespace plumbline::base
     prctl(PR_SET_PDEATHSIG, SIGTERM);
   }
 
-  std::vector<std::string> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,
-                                    const std::vector<std::string> &arguments,
-                                    const std::function<bool()> &on_wait)
+  std::vector<BadEnding> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,
+                                  const std::vector<std::string> &arguments,
+                                  const std::function<bool(std::size_t n_done)> &on_wait)
   {
     using namespace std::chrono_literals;
     Pipe pipe;
     std::set<pid_t> processes;
-    std::vector<std::string> endings;
+    std::vector<BadEnding> endings;
     for (unsigned int i = 0; i < std::min<std::size_t>(n, tasks.size()); ++i)
       processes.insert(begin(arguments, pipe.reading()));
     std::size_t n_given = 0;
     bool is_stopped = false;
+    const auto stop = [&]
+    {
+      is_stopped = true;
+      for (const pid_t process : processes)
+        kill(process, SIGTERM);
+    };
     while (!processes.empty())
     {
       while (n_given < tasks.size() && pipe.write(tasks[n_given]))
         ++n_given;
       if (n_given == tasks.size())
         pipe.close_writing();
+      const std::size_t n_taken = n_given - pipe.n_unread();
+      // Ctrl-C reaches all processes at once: it is noticed here before they are seen to have ended
+      if (!on_wait(n_taken - std::min(n_taken, processes.size())) && !is_stopped)
+        stop();
       int status = 0;
       for (pid_t process = 0; (process = waitpid(-1, &status, WNOHANG)) > 0;)
       {
         if (processes.erase(process) == 0 || is_stopped)
           continue;
-        const std::string how = ending(status);
-        if (how.empty())
+        const BadEnding bad = ending(status);
+        if (bad.how.empty())
           continue;
-        endings.push_back(how);
+        endings.push_back(bad);
         // each has taken a task with it, so that there is an end to this, unless it never began one
-        if (WIFSIGNALED(status) && endings.size() <= tasks.size())
+        if (bad.exit_code != 0)
+          stop();
+        else if (endings.size() <= tasks.size())
           processes.insert(begin(arguments, pipe.reading()));
-      }
-      if (!is_stopped && !on_wait())
-      {
-        is_stopped = true;
-        for (const pid_t process : processes)
-          kill(process, SIGTERM);
       }
       std::this_thread::sleep_for(100ms);
     }

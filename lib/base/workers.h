@@ -15,11 +15,19 @@ namespace plumbline::base
   /// End with the process that began this one, however it ends.
   void end_with_parent();
 
-  /// Run this command with other arguments in n processes that take tasks from standard input.
-  /// @param on_wait  called ten times a second; false: end them now
-  /// @return  how processes ended that a signal ended, or that ended with an exit code other than
-  /// 0, in words; others were begun in their place
-  std::vector<std::string> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,
-                                    const std::vector<std::string> &arguments,
-                                    const std::function<bool()> &on_wait);
+  /// How a process ended whose task is not finished.
+  struct BadEnding
+  {
+    std::string how;   ///< e.g. "was ended by a signal (Killed)"
+    int exit_code = 0; ///< 0: a signal ended it
+  };
+
+  /// Run this command with other arguments in n processes that take tasks from standard input. In
+  /// place of one that a signal ends, another begins; an exit code other than 0 ends all of them,
+  /// since the others would end in the same way.
+  /// @param on_wait  called ten times a second with the number of finished tasks; false: end them
+  /// now
+  std::vector<BadEnding> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,
+                                  const std::vector<std::string> &arguments,
+                                  const std::function<bool(std::size_t n_done)> &on_wait);
 } // namespace plumbline::base

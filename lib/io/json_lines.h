@@ -15,7 +15,11 @@ namespace plumbline::io
     /// Nothing is written yet.
     explicit JsonLines(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// Whole lines. The first ones replace a file that is there, at once.
+    /// The file that is there is continued, by several processes at the same time.
+    void join() { is_begun_ = true; }
+
+    /// Whole lines. The first ones replace a file that is there, at once, unless it was joined. A
+    /// line that a kill has cut off at the file's end is removed.
     /// @throws InputError  the file cannot be written
     void append(const std::string &lines);
 

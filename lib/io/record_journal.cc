@@ -79,6 +79,12 @@ namespace plumbline::io
     head_.clear();
   }
 
+  void RecordJournal::join()
+  {
+    lines_.join();
+    head_.clear();
+  }
+
   study::StudyResults read_journal(const fs::path &file)
   {
     const std::string name = file.string(), what = "results file '" + name + "'";

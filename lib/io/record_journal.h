@@ -27,6 +27,9 @@ namespace plumbline::io
     /// @throws InputError  the file cannot be written
     void append(const study::StudyResults &made);
 
+    /// This process continues the file together with others, of which one has begun it.
+    void join();
+
     /// The study is complete, and other files hold everything.
     void remove() const { lines_.remove(); }
 

@@ -11,6 +11,12 @@ namespace plumbline::io
     /// Ours have 32 blocks along a side.
     constexpr unsigned int most_blocks = 1000;
 
+    /// The map of a curve has no height.
+    bool is_curve(const study::ErrorMap &map, unsigned int axis)
+    {
+      return axis == 1 && map.n_y == 1 && map.lower[1] == map.upper[1];
+    }
+
     class Checks
     {
     public:
@@ -79,8 +85,9 @@ namespace plumbline::io
                "has " + std::to_string(map.solution.size()) +
                    " numbers, neither none nor n_x * n_y = " + std::to_string(n));
         for (unsigned int d = 0; d < 2; ++d)
-          expect(std::isfinite(map.upper[d] - map.lower[d]) && map.lower[d] < map.upper[d], place,
-                 "has an upper corner that is not above and right of the lower one");
+          expect(std::isfinite(map.upper[d] - map.lower[d]) &&
+                     (map.lower[d] < map.upper[d] || is_curve(map, d)),
+                 place, "has an upper corner that is not above and right of the lower one");
       }
 
       void blocks(const study::SolutionBlocks &blocks, const std::string &place) const

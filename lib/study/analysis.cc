@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace plumbline::study
@@ -75,6 +76,11 @@ namespace plumbline::study
              record.key.value == place.level().value;
     }
 
+    bool is_of(const ErrorEstimate &one, const Place &place)
+    {
+      return one.series == place.series().name && one.level == place.number();
+    }
+
     /// What a method is expected to cost at a place, from the two levels before it [CPU s].
     /// Infinite where the level before was left out.
     double expected_seconds(const Records &records, const Place &place, const Method &method)
@@ -119,12 +125,7 @@ namespace plumbline::study
         results_.provenance = control.earlier.provenance;
         results_.is_complete = false;
         head_ = results_;
-        if (!control.earlier.records.empty())
-        {
-          results_.savings = control.earlier.savings;
-          results_.warnings = control.earlier.warnings;
-        }
-        note_told();
+        take_over(control.earlier);
         common_.methods = methods;
         common_.make_part = [this](const Record &begun, const Common::Fill &fill)
         { make_part(begun, fill); };
@@ -136,21 +137,33 @@ namespace plumbline::study
       {
         for (const problem::Series &series : scene_.study.series)
           for (unsigned int level = 0; level < n_levels(series); ++level)
+          {
+            levels_.push_back({&series, level});
             work_of_all_ += work_of(series.levels[level]) * static_cast<double>(methods_.size());
-        for (const problem::Series &series : scene_.study.series)
-          for (unsigned int level = 0; level < n_levels(series) && !is_stopped_; ++level)
-            run_level({scene_, series, level, level + 1 == n_levels(series), common_});
+          }
+        if (control_.next_task)
+        {
+          run_tasks();
+          return std::move(results_);
+        }
+        if (control_.share && !is_shared_by_level())
+          share(0, levels_.size());
+        for (std::size_t i = 0; i < levels_.size(); ++i)
+          run_level(i);
         results_.is_complete = !is_stopped_;
         if (analysis_.complete && !is_stopped_)
           analysis_.complete(scene_, common_);
-        const auto index = [&](const Record &record)
+        const auto index = [&](const std::string &name)
         {
           return std::find_if(methods_.begin(), methods_.end(),
-                              [&](const auto &method)
-                              { return method->name() == record.key.method; });
+                              [&](const auto &method) { return method->name() == name; });
         };
         std::stable_sort(results_.records.begin(), results_.records.end(),
-                         [&](const Record &a, const Record &b) { return index(a) < index(b); });
+                         [&](const Record &a, const Record &b)
+                         { return index(a.key.method) < index(b.key.method); });
+        std::stable_sort(results_.savings.begin(), results_.savings.end(),
+                         [&](const Saving &a, const Saving &b)
+                         { return index(a.method) < index(b.method); });
         if (analysis_.conclude)
           analysis_.conclude(scene_, results_);
         check_values(scene_, results_);
@@ -164,38 +177,141 @@ namespace plumbline::study
         return control_.n_levels == 0 ? n : std::min(n, control_.n_levels);
       }
 
-      void run_level(const Place &place)
+      Place place_at(std::size_t i)
       {
-        bool is_begun = false;
-        const auto is_here = [&](const ErrorEstimate &one)
-        { return one.series == place.series().name && one.level == place.number(); };
-        for (std::size_t i = 0; i < methods_.size(); ++i, work_done_ += work_of(place.level()))
+        const auto &[series, level] = levels_[i];
+        return {scene_, *series, level, level + 1 == n_levels(*series), common_};
+      }
+
+      /// What an earlier study, or another process, has found besides records of tasks.
+      void take_over(StudyResults earlier)
+      {
+        earlier_ = std::move(earlier);
+        if (!earlier_.records.empty())
         {
-          if (control_.should_stop && control_.should_stop())
-          {
-            is_stopped_ = true;
-            return;
-          }
-          const Method &method = *methods_[i];
-          Records own = take_earlier(place, method);
-          const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;
-          if (is_due && analysis_.begin && !std::exchange(is_begun, true))
-          {
-            show_progress(place.record(analysis_.name, method).key, words_of_begin());
-            analysis_.begin(place);
-            if (std::any_of(control_.earlier.references.begin(), control_.earlier.references.end(),
-                            is_here))
-              note_told(); // of this level by the earlier study, which had begun it
-          }
-          if (is_due)
-            own = analyse(place, method);
-          std::move(own.begin(), own.end(), std::back_inserter(results_.records));
-          if (is_stopped_)
-            return;
+          results_.savings = earlier_.savings;
+          std::vector<std::string> &warnings = results_.warnings = {};
+          take(warnings, earlier_.warnings, // several processes find the same
+               [&](const std::string &one)
+               { return std::find(warnings.begin(), warnings.end(), one) == warnings.end(); });
         }
-        if (!is_begun)
-          take(results_.references, control_.earlier.references, is_here);
         note_told();
+      }
+
+      /// Has what is not there yet of levels made by other processes, as far as it is affordable;
+      /// fine levels, which take longest, first.
+      /// @param end  behind the last one
+      void share(std::size_t first, std::size_t end)
+      {
+        std::vector<std::uint64_t> tasks;
+        for (std::size_t i = end; i-- > first;)
+        {
+          const Place place = place_at(i);
+          const std::size_t n_before = tasks.size();
+          for (std::size_t k = 0; k < methods_.size(); ++k)
+            if ((analysis_.has_parts || !is_known(place, *methods_[k])) &&
+                (control_.budget == 0 ||
+                 expected_seconds(results_.records, place, *methods_[k]) <= control_.budget))
+              tasks.push_back(i * n_of_level() + k);
+          // one process makes a reference for all methods
+          if (scene_.reference.method && tasks.size() == n_before + methods_.size())
+          {
+            tasks.resize(n_before);
+            tasks.push_back(i * n_of_level() + methods_.size());
+          }
+        }
+        if (!tasks.empty())
+          take_over(control_.share(head_, tasks));
+      }
+
+      /// Numbers of tasks of a level: one for each method, the last for all of them.
+      std::size_t n_of_level() const { return methods_.size() + 1; }
+
+      /// Those that another process gives; methods of the same level share its place.
+      void run_tasks()
+      {
+        std::optional<Place> place;
+        std::size_t present = 0;
+        bool is_begun = false;
+        for (std::uint64_t task = 0; control_.next_task(task);)
+        {
+          const std::size_t level = task / n_of_level(), k = task % n_of_level();
+          if (level >= levels_.size())
+            continue;
+          if (!place || level != present)
+          {
+            place.emplace(place_at(level));
+            present = level;
+            is_begun = false;
+          }
+          const bool is_all = k == methods_.size();
+          for (std::size_t i = is_all ? 0 : k; i < (is_all ? k : k + 1); ++i)
+            run_method(*place, *methods_[i], is_begun);
+        }
+      }
+
+      void run_level(std::size_t i)
+      {
+        if (control_.share && is_shared_by_level() && !is_stopped_)
+          share(i, i + 1);
+        const Place place = place_at(i);
+        bool is_begun = false;
+        for (std::size_t k = 0; k < methods_.size(); ++k, work_done_ += work_of(place.level()))
+          run_method(place, *methods_[k], is_begun);
+        const auto is_new = [&](const ErrorEstimate &one)
+        {
+          const auto is_same = [&](const ErrorEstimate &other) {
+            return other.series == one.series && other.level == one.level &&
+                   other.problem == one.problem;
+          };
+          const auto &all = results_.references; // each process that has a task here makes it
+          return is_of(one, place) && std::none_of(all.begin(), all.end(), is_same);
+        };
+        if (!is_begun)
+          take(results_.references, earlier_.references, is_new);
+        note_told();
+      }
+
+      /// The costs of a level decide what is affordable at the next one.
+      bool is_shared_by_level() const { return control_.is_shared_by_level || control_.budget > 0; }
+
+      bool is_to_stop() const
+      {
+        return is_stopped_ || (control_.should_stop && control_.should_stop());
+      }
+
+      /// @param is_begun  whether Analysis::begin was called at this place
+      void run_method(const Place &place, const Method &method, bool &is_begun)
+      {
+        Records own = take_earlier(place, method);
+        if (own.empty() && is_to_stop())
+        {
+          is_stopped_ = true;
+          return;
+        }
+        const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;
+        if (is_due && own.empty() && control_.share) // another process has not finished it
+        {
+          is_stopped_ = true;
+          return;
+        }
+        if (is_due && analysis_.begin && !std::exchange(is_begun, true))
+        {
+          show_progress(place.record(analysis_.name, method).key, words_of_begin());
+          analysis_.begin(place);
+          const auto is_here = [&](const ErrorEstimate &one) { return is_of(one, place); };
+          if (std::any_of(earlier_.references.begin(), earlier_.references.end(), is_here))
+            note_told(); // of this level by the earlier study, which had begun it
+        }
+        if (is_due)
+          own = analyse(place, method);
+        std::move(own.begin(), own.end(), std::back_inserter(results_.records));
+      }
+
+      bool is_known(const Place &place, const Method &method) const
+      {
+        return std::any_of(earlier_.records.begin(), earlier_.records.end(),
+                           [&](const Record &record) { return is_of(record, place, method); });
       }
 
       /// All that the lists of statements have now is told.
@@ -228,29 +344,26 @@ namespace plumbline::study
       Records take_earlier(const Place &place, const Method &method)
       {
         Records own;
-        take(own, control_.earlier.records,
+        take(own, earlier_.records,
              [&](const Record &record) { return is_of(record, place, method); });
         if (own.empty())
           return own;
-        take(results_.estimates, control_.earlier.estimates,
+        take(results_.estimates, earlier_.estimates,
              [&](const ErrorEstimate &one)
-             {
-               return one.method == method.name() && one.series == place.series().name &&
-                      one.level == place.number();
-             });
+              { return one.method == method.name() && is_of(one, place); });
         const auto is_drawn_here = [&](const auto &one) {
           return place.is_finest() && one.method == method.name() &&
                  one.series == place.series().name;
         };
-        take(results_.maps, control_.earlier.maps, is_drawn_here);
-        take(results_.solution_blocks, control_.earlier.solution_blocks, is_drawn_here);
+        take(results_.maps, earlier_.maps, is_drawn_here);
+        take(results_.solution_blocks, earlier_.solution_blocks, is_drawn_here);
         note_told();
         return own;
       }
 
       bool is_affordable(const Place &place, const Method &method)
       {
-        if (control_.budget == 0)
+        if (control_.budget == 0 || control_.next_task)
           return true;
         const double seconds = expected_seconds(results_.records, place, method);
         // each rank has its own clock, and all must agree
@@ -306,7 +419,7 @@ namespace plumbline::study
 
       void make_part(const Record &begun, const Common::Fill &fill)
       {
-        const Records &earlier = control_.earlier.records;
+        const Records &earlier = earlier_.records;
         const auto known = std::find_if(earlier.begin(), earlier.end(),
                                         [&](const Record &one) { return one.key == begun.key; });
         if (known != earlier.end())
@@ -314,7 +427,7 @@ namespace plumbline::study
           parts_.push_back(*known);
           return;
         }
-        if (control_.should_stop && control_.should_stop())
+        if (is_to_stop() || control_.share)
           throw Interrupted();
         show_progress(begun.key, begun.key.label());
         parts_.push_back(begun);
@@ -360,7 +473,9 @@ namespace plumbline::study
       const base::SeparateCommunicator ranks_{control_.ranks};
       Common common_;
       StudyResults &results_ = common_.results;
-      StudyResults head_;                      ///< of what is told: without records and lists
+      StudyResults head_;    ///< of what is told: without records and lists
+      StudyResults earlier_; ///< as RunControl::earlier, or by other processes
+      std::vector<std::pair<const problem::Series *, unsigned int>> levels_; ///< in their order
       std::vector<std::ptrdiff_t> n_told_;     ///< of the lists of statements
       Records parts_;                          ///< of the present method and place
       double work_done_ = 0, work_of_all_ = 0; ///< see work_of

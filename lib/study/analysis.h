@@ -6,6 +6,7 @@
 #include "scene/problem.h"
 #include "study/study_results.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -176,10 +177,19 @@ namespace plumbline::study
     std::function<void(const StudyResults &)> on_made = {};
     /// Records that need not be made again, with what was found besides them, and provenance.
     StudyResults earlier = {};
+    /// Has tasks made by other processes and returns all that is finished then, as `earlier`; what
+    /// is missing is not made here, and the study is incomplete. Empty: there are no others.
+    /// @param head  results without records and statements
+    std::function<StudyResults(const StudyResults &head, const std::vector<std::uint64_t> &tasks)>
+        share = {};
+    bool is_shared_by_level = false; ///< once for each level, as with a budget; else once
+    /// Of such a process, which makes only these: its next task, until there are no more.
+    std::function<bool(std::uint64_t &task)> next_task = {};
     base::Communicator ranks = base::Communicator::alone(); ///< that run this study together
   };
 
-  /// All methods at all levels of a scene's series: the one loop for every analysis.
+  /// All methods at all levels of a scene's series: the one loop for every analysis. A task is one
+  /// method at one level, or all of them if the scene has a reference.
   /// @throws InputError  as the analysis; what else goes wrong is in a record's failure
   StudyResults run_study(const Analysis &analysis, scene::Scene scene, const Methods &methods,
                          const RunControl &control = {});

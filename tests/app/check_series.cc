@@ -127,6 +127,47 @@ TEST_F(CheckSeries,
   }
 }
 
+TEST_F(CheckSeries, goes_on_after_a_kill_between_levels_to_the_same_bits)
+{
+  for (const double h : sizes_)
+    write_level("IPA-AC-R2", h);
+  const fs::path whole = folder_ / "whole", killed = folder_ / "killed";
+  const std::string base = folder_.string(), command = "check " + base + "/nodes_{h}.csv " + base +
+                                                       "/bonds_{h}.csv --scene " + scene_file +
+                                                       " -o ";
+  ASSERT_EQ(run(command + whole.string()).exit_code, 0);
+  EXPECT_FALSE(fs::exists(whole / "check.jsonl"));
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / "check.jsonl"))
+      << "the check had ended before it was killed";
+  const Outcome resumed = run(command + killed.string());
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  expect_found(resumed.err, "continuing: ");
+  auto one = read_json(whole / "check.json"), other = read_json(killed / "check.json");
+  for (auto *json : {&one, &other})
+  {
+    (*json)["study"].erase("provenance");
+    for (auto &level : (*json)["levels"])
+      level.erase("provenance");
+  }
+  EXPECT_EQ(one, other);
+  EXPECT_EQ(read(whole / "levels.csv"), read(killed / "levels.csv"));
+  // weights that have changed are checked anew
+  ASSERT_TRUE(kill_at(command + killed.string(), killed / "check.jsonl"));
+  write_level("FA", .125);
+  EXPECT_EQ(run(command + killed.string()).err.find("continuing"), std::string::npos);
+}
+
+TEST_F(CheckSeries, leaves_out_levels_that_a_budget_does_not_allow)
+{
+  for (const double h : sizes_)
+    write_level("IPA-AC-R2", h);
+  const fs::path out = folder_ / "out";
+  check_all("--budget 1e-9 -o " + out.string());
+  const auto json = read_json(out / "check.json");
+  EXPECT_EQ(json["levels"].size(), 1u);
+  EXPECT_EQ(json["study"]["left_out"].size(), sizes_.size() - 1);
+}
+
 TEST_F(CheckSeries, says_that_errors_stall)
 {
   for (const double h : sizes_)

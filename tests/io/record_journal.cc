@@ -132,6 +132,38 @@ namespace plumbline::io
     EXPECT_EQ(n_earlier(file), 1u);
   }
 
+  TEST(RecordJournal, IsContinuedByOthersBehindItsLastWholeLine)
+  {
+    const Folder folder;
+    const auto file = folder.path() / "rows.jsonl";
+    RecordJournal(file, "scene").append(made({full_record()}));
+    RecordJournal one(file, "scene"), other(file, "scene");
+    one.join();
+    other.join();
+    one.append(made({full_record()}));
+    other.append(made({full_record()}));
+    EXPECT_EQ(n_earlier(file), 3u);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9); // that one is killed
+    one.append(made({full_record(), full_record()}));
+    EXPECT_EQ(n_earlier(file), 4u);
+  }
+
+  TEST(RecordJournal, GivesBackMapsOfCurvesWhichHaveNoHeight)
+  {
+    const Folder folder;
+    const auto file = folder.path() / "rows.jsonl";
+    study::StudyResults results = made({full_record()});
+    study::ErrorMap map;
+    map.h = map.horizon = 1;
+    map.n_x = 2;
+    map.n_y = 1;
+    map.upper = {1, 0};
+    map.values = {1, 2};
+    results.maps = {map};
+    RecordJournal(file, "scene").append(results);
+    EXPECT_EQ(RecordJournal(file, "scene").earlier().maps.size(), 1u);
+  }
+
   TEST(RecordJournal, TakesNothingOfAFileThatIsNone)
   {
     const Folder folder;
