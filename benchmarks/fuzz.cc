@@ -52,7 +52,7 @@ namespace
   /// The nodes and cells of scenes/check, which bonds are read for.
   struct BondContext
   {
-    meshfree::GivenNodes nodes;
+    meshfree::GivenNodes<2> nodes;
     geometry::NodeCells<2> cells;
   };
 
@@ -68,7 +68,7 @@ namespace
         try // levels of other nodes have other collars
         {
           const geometry::Mesh mesh = scene::make_mesh(scene, level);
-          return {meshfree::read_given_nodes(nodes), scene::make_node_cells(scene, level, mesh)};
+          return {meshfree::read_given_nodes<2>(nodes), scene::make_node_cells(scene, level, mesh)};
         }
         catch (const InputError &)
         {
@@ -111,7 +111,7 @@ namespace
     {
       const std::string name = file();
       (void)scene::read_nodes(name);
-      (void)meshfree::read_given_nodes(name);
+      (void)meshfree::read_given_nodes<2>(name);
       break;
     }
     case Reader::bonds:

@@ -61,7 +61,7 @@ namespace plumbline::check
     }
 
     /// Of a node numbered as in its file.
-    std::string id(const Findings &found, std::size_t node)
+    std::string id(const Findings<2> &found, std::size_t node)
     {
       return std::to_string(found.nodes.id[node]);
     }
@@ -73,7 +73,7 @@ namespace plumbline::check
     }
 
     /// "12 and 13, 12 and 14 ..."
-    std::string list(const Findings &found, const std::vector<NodePair> &pairs)
+    std::string list(const Findings<2> &found, const std::vector<NodePair> &pairs)
     {
       std::string text;
       for (std::size_t k = 0; k < std::min(most_named, pairs.size()); ++k)
@@ -146,7 +146,8 @@ namespace plumbline::check
 
     /// Moments near free surfaces or cracks that are farther off than is allowed. Of half lists all
     /// are, by one cause.
-    std::vector<std::string> moment_complaints(const Findings &found, const Requirements &required)
+    std::vector<std::string> moment_complaints(const Findings<2> &found,
+                                               const Requirements &required)
     {
       std::vector<std::string> result;
       if (found.given.is_half_list)
@@ -179,7 +180,7 @@ namespace plumbline::check
       return result;
     }
 
-    void add_different(const Findings &found, std::vector<std::string> &complaints)
+    void add_different(const Findings<2> &found, std::vector<std::string> &complaints)
     {
       const std::vector<NodePair> &all = found.body->different;
       if (found.body->is_different())
@@ -206,7 +207,7 @@ namespace plumbline::check
   }
 
   void take_into_box(const GivenBody &body, const geometry::Domain &omega,
-                     meshfree::GivenNodes &nodes)
+                     meshfree::GivenNodes<2> &nodes)
   {
     if (!body.is_periodic())
       return;
@@ -222,7 +223,7 @@ namespace plumbline::check
   }
 
   void add_images(const geometry::Mesh &mesh, const problem::Level &level,
-                  meshfree::GivenNodes &nodes)
+                  meshfree::GivenNodes<2> &nodes)
   {
     if (!nodes.box)
       return;
@@ -268,7 +269,7 @@ namespace plumbline::check
     /// Checks what lies near free surfaces and cracks, and leaves the families of whole balls.
     BodyCheck check_body(const GivenBody &body, const std::string &key,
                          const physics::Kernel<2> &kernel, double spacing,
-                         meshfree::GivenWeights &weights, std::vector<double> &uncut_areas)
+                         meshfree::GivenWeights<2> &weights, std::vector<double> &uncut_areas)
     {
       geometry::NodeCells<2> named; // places and ids are all that messages need
       named.nodes = weights.cells->nodes;
@@ -303,9 +304,9 @@ namespace plumbline::check
   }
 
   void find_defects(const GivenBody &body, const std::string &key, meshfree::BondValues values,
-                    meshfree::GivenWeights weights, std::vector<double> uncut_areas,
+                    meshfree::GivenWeights<2> weights, std::vector<double> uncut_areas,
                     problem::Problem<2> problem, const std::vector<std::string> &meant,
-                    Findings &found)
+                    Findings<2> &found)
   {
     for (const std::size_t k : weights.cells->source)
       weights.volumes.push_back(weights.nodes.volume[k]);
@@ -319,11 +320,12 @@ namespace plumbline::check
       found.n_crossing =
           meshfree::crossing_bonds(weights.given.families, weights.nodes, *weights.cells);
     problem.on_mesh()->cells = weights.cells; // of whole balls
-    static_cast<meshfree::Findings &>(found) = meshfree::find_defects(
-        std::move(weights), problem, uncut_areas, found.level.node_size, meant);
+    static_cast<meshfree::Findings<2> &>(found) = meshfree::find_defects(
+        std::move(weights), problem.kernel, uncut_areas, found.level.node_size, meant);
+    meshfree::check_matrix(problem, found);
   }
 
-  std::vector<std::string> body_complaints(const Findings &found, const Requirements &required)
+  std::vector<std::string> body_complaints(const Findings<2> &found, const Requirements &required)
   {
     const BodyCheck &body = *found.body;
     std::vector<std::string> result;
@@ -354,7 +356,7 @@ namespace plumbline::check
     return result;
   }
 
-  std::vector<std::string> body_verdicts(const Findings &found)
+  std::vector<std::string> body_verdicts(const Findings<2> &found)
   {
     const BodyCheck &body = *found.body;
     std::vector<std::string> result;
@@ -370,7 +372,7 @@ namespace plumbline::check
     return result;
   }
 
-  report::Table body_table(const Findings &found)
+  report::Table body_table(const Findings<2> &found)
   {
     report::Table table;
     table.columns = {"families",      "number",  "first: median", "first: worst", "second: median",
@@ -387,7 +389,7 @@ namespace plumbline::check
 
   namespace
   {
-    Json pairs_json(const Findings &found, const std::vector<NodePair> &pairs)
+    Json pairs_json(const Findings<2> &found, const std::vector<NodePair> &pairs)
     {
       Json all = Json::array();
       for (const NodePair &one : pairs)
@@ -395,7 +397,7 @@ namespace plumbline::check
       return all;
     }
 
-    Json families_json(const Findings &found, const CutFamilies &cut)
+    Json families_json(const Findings<2> &found, const CutFamilies &cut)
     {
       const auto moments = [&](double median, const meshfree::Worst &worst)
       {
@@ -415,7 +417,7 @@ namespace plumbline::check
     }
   } // namespace
 
-  std::string body_json(const Findings &found)
+  std::string body_json(const Findings<2> &found)
   {
     const BodyCheck &body = *found.body;
     const meshfree::FoundCorrection &correction = body.correction;

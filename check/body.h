@@ -33,12 +33,12 @@ namespace plumbline::check
   /// If Ω is periodic (one box), takes its nodes into the box; otherwise leaves them as they are.
   /// @throws InputError  Ω is no box, and as geometry::PeriodicBox::take_in
   void take_into_box(const GivenBody &body, const geometry::Domain &omega,
-                     meshfree::GivenNodes &nodes);
+                     meshfree::GivenNodes<2> &nodes);
 
   /// Then the images in the mesh of Ω and its collar.
   /// @throws InputError  as geometry::PeriodicBox::check_sides
   void add_images(const geometry::Mesh &mesh, const problem::Level &level,
-                  meshfree::GivenNodes &nodes);
+                  meshfree::GivenNodes<2> &nodes);
 
   /// What of a problem the check of weights needs: nodes on a mesh.
   problem::Problem<2> problem_on(const geometry::Mesh &mesh,
@@ -54,15 +54,15 @@ namespace plumbline::check
   /// @param meant    rules that the weights may be of
   /// @throws InputError  as meshfree::check_body and geometry::check_cracks
   void find_defects(const GivenBody &body, const std::string &key, meshfree::BondValues values,
-                    meshfree::GivenWeights weights, std::vector<double> uncut_areas,
+                    meshfree::GivenWeights<2> weights, std::vector<double> uncut_areas,
                     problem::Problem<2> problem, const std::vector<std::string> &meant,
-                    Findings &found);
+                    Findings<2> &found);
 
   // What is said of a body, as of all weights in requirements.h.
-  std::vector<std::string> body_complaints(const Findings &found, const Requirements &required);
-  std::vector<std::string> body_verdicts(const Findings &found);
-  report::Table body_table(const Findings &found);
+  std::vector<std::string> body_complaints(const Findings<2> &found, const Requirements &required);
+  std::vector<std::string> body_verdicts(const Findings<2> &found);
+  report::Table body_table(const Findings<2> &found);
 
   /// The value of "body" in check.json.
-  std::string body_json(const Findings &found);
+  std::string body_json(const Findings<2> &found);
 } // namespace plumbline::check

@@ -3,6 +3,7 @@
 #include "check/body.h"
 #include "check/text.h"
 #include "meshfree/check/cells_vtu.h"
+#include "meshfree/check/sizes.h"
 #include "report/check_page.h"
 #include "report/text_table.h"
 #include "study/solution_record.h"
@@ -17,15 +18,16 @@ namespace plumbline::check
   namespace
   {
     /// What there is of each free node.
-    std::vector<report::NodeField> node_fields(const Findings &found)
+    template <int dim>
+    std::vector<report::NodeField> node_fields(const Findings<dim> &found)
     {
       const std::size_t n = found.cells->n_free;
-      const double ball = M_PI * std::pow(found.level.level.horizon, 2);
+      const double ball = ball_volume<dim>(found.level.level.horizon);
       std::vector<double> area(n), flags(n);
       for (std::size_t i = 0; i < n; ++i)
       {
         double sum = found.mended_volumes[i];
-        for (const Bond<2> &bond : found.given.families[i].bonds)
+        for (const Bond<dim> &bond : found.given.families[i].bonds)
           sum += bond.weight;
         area[i] = std::abs(sum / ball - 1);
       }
@@ -43,33 +45,41 @@ namespace plumbline::check
     }
 
     /// Of each node, how many outliers name it.
-    std::vector<double> flags(const Findings &found)
+    template <int dim>
+    std::vector<double> flags(const Findings<dim> &found)
     {
       std::vector<double> result(found.cells->n_free);
-      for (const Outlier &o : found.outliers)
+      for (const Outlier<dim> &o : found.outliers)
         for (const std::size_t node : {o.node, o.neighbour})
           if (node < result.size())
             ++result[node];
       return result;
     }
 
-    Table node_table(const Findings &found, const std::vector<report::NodeField> &fields)
+    template <int dim>
+    Table node_table(const Findings<dim> &found, const std::vector<report::NodeField> &fields)
     {
       Table table;
-      table.columns = {"id", "x", "y", "volume", "cell_area", "bonds", "second_moment_ratio"};
+      table.columns = {"id", "x", "y"};
+      if (dim == 3)
+        table.columns.emplace_back("z");
+      for (const std::string name :
+           {"volume", dim == 2 ? "cell_area" : "cell_volume", "bonds", "second_moment_ratio"})
+        table.columns.push_back(name);
       for (const report::NodeField &field : fields)
         table.columns.emplace_back(field.name);
       table.columns.emplace_back("outliers");
       const auto n_outliers = flags(found);
       for (std::size_t i = 0; i < found.cells->n_free; ++i)
       {
-        table.rows.push_back({report::text_cell(found.id(i)),
-                              report::number_cell(found.nodes.origin[0] + found.cells->nodes[i][0]),
-                              report::number_cell(found.nodes.origin[1] + found.cells->nodes[i][1]),
-                              report::number_cell(found.volumes[i]),
-                              report::number_cell(found.cells->area[i]),
-                              report::count_cell(found.given.families[i].bonds.size()),
-                              report::number_cell(found.moments.ratios[i])});
+        std::vector<report::Cell> row = {report::text_cell(found.id(i))};
+        for (unsigned int d = 0; d < dim; ++d)
+          row.push_back(report::number_cell(found.nodes.origin[d] + found.cells->nodes[i][d]));
+        row.push_back(report::number_cell(found.volumes[i]));
+        row.push_back(report::number_cell(found.cells->area[i]));
+        row.push_back(report::count_cell(found.given.families[i].bonds.size()));
+        row.push_back(report::number_cell(found.moments.ratios[i]));
+        table.rows.push_back(std::move(row));
         for (const report::NodeField &field : fields)
           table.rows.back().push_back(report::error_cell(field.values[i]));
         table.rows.back().push_back(report::count_cell(static_cast<std::uint64_t>(n_outliers[i])));
@@ -77,23 +87,25 @@ namespace plumbline::check
       return table;
     }
 
-    Table outlier_table(const Findings &found)
+    template <int dim>
+    Table outlier_table(const Findings<dim> &found)
     {
       Table table;
       table.columns = {"node", "neighbour", "line", "found", "expected", "what"};
-      for (const Outlier &o : found.outliers)
+      for (const Outlier<dim> &o : found.outliers)
         table.rows.push_back(
             {report::text_cell(found.id(o.node)),
-             o.neighbour == Outlier::none ? report::empty_cell()
-                                          : report::text_cell(found.id(o.neighbour)),
-             o.bond == Outlier::none ? report::empty_cell()
-                                     : report::count_cell(found.given.lines[o.node][o.bond]),
+             o.neighbour == Outlier<dim>::none ? report::empty_cell()
+                                               : report::text_cell(found.id(o.neighbour)),
+             o.bond == Outlier<dim>::none ? report::empty_cell()
+                                          : report::count_cell(found.given.lines[o.node][o.bond]),
              report::number_cell(o.found), report::number_cell(o.expected),
              report::text_cell(text(o, found))});
       return table;
     }
 
-    Table moment_table(const Findings &found)
+    template <int dim>
+    Table moment_table(const Findings<dim> &found)
     {
       Table table;
       table.columns = {"degree", "worst", "median", "worst at node"};
@@ -105,7 +117,8 @@ namespace plumbline::check
       return table;
     }
 
-    Table elastic_table(const Findings &found)
+    template <int dim>
+    Table elastic_table(const Findings<dim> &found)
     {
       Table table;
       table.columns = {"constant", "least", "median", "largest"};
@@ -115,7 +128,8 @@ namespace plumbline::check
       return table;
     }
 
-    Table solution_table(const Findings &found)
+    template <int dim>
+    Table solution_table(const Findings<dim> &found)
     {
       Table table;
       table.columns = {"case", "norm and target", "by the weights", "by the reference"};
@@ -128,7 +142,8 @@ namespace plumbline::check
     }
   } // namespace
 
-  void write_check(const Findings &found, const Requirements &required, const Input &input,
+  template <int dim>
+  void write_check(const Findings<dim> &found, const Requirements &required, const Input &input,
                    int exit_code, const std::filesystem::path &folder)
   {
     const auto fields = node_fields(found);
@@ -147,7 +162,8 @@ namespace plumbline::check
         values.push_back(field.values[i]);
       values.push_back(n_outliers[i]);
     }
-    write_cells_vtu(*found.cells, names, values, (folder / "cells.vtu").string());
+    if constexpr (dim == 2)
+      write_cells_vtu(*found.cells, names, values, (folder / "cells.vtu").string());
 
     report::CheckPage page{found.scene_name,
                            found.purpose,
@@ -176,17 +192,25 @@ namespace plumbline::check
                    "Errors of the solution of the scene with these weights and with the reference "
                    "[unit of the solution].",
                    solution_table(found)}};
-    if (found.body)
-      page.parts.insert(
-          page.parts.begin(),
-          {"body", "Free surfaces and cracks",
-           "Moments of all families relative to those of the visible part of the "
-           "ball. visible/bulk and weights/bulk are second moments relative to those of the bulk. "
-           "All other tables and maps are those of the interior.",
-           body_table(found)});
-    for (std::size_t i = 0; i < found.cells->n_free; ++i)
+    if constexpr (dim == 2)
+      if (found.body)
+        page.parts.insert(page.parts.begin(),
+                          {"body", "Free surfaces and cracks",
+                           "Moments of all families relative to those of the visible part of the "
+                           "ball. visible/bulk and weights/bulk are second moments relative to "
+                           "those of the bulk. "
+                           "All other tables and maps are those of the interior.",
+                           body_table(found)});
+    for (std::size_t i = 0; i < found.cells->n_free && dim == 2; ++i)
       page.nodes.push_back({found.cells->nodes[i][0], found.cells->nodes[i][1]});
-    page.defects = {fields[0], fields[1]};
+    if (dim == 2) // there is no map of nodes in space
+      page.defects = {fields[0], fields[1]};
     report::write_check_page(page, folder);
   }
+
+  template void write_check(const Findings<2> &, const Requirements &, const Input &, int,
+                            const std::filesystem::path &);
+
+  template void write_check(const Findings<3> &, const Requirements &, const Input &, int,
+                            const std::filesystem::path &);
 } // namespace plumbline::check

@@ -10,6 +10,7 @@ namespace plumbline::check
   /// the cells) and check.json.
   /// @throws InputError  the folder cannot be written
   /// @throws NumericalError  maps cannot be drawn; all else is written
-  void write_check(const Findings &found, const Requirements &required, const Input &input,
+  template <int dim>
+  void write_check(const Findings<dim> &found, const Requirements &required, const Input &input,
                    int exit_code, const std::filesystem::path &folder);
 } // namespace plumbline::check

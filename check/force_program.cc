@@ -6,7 +6,6 @@
 #include "base/number_text.h"
 #include "base/text_file.h"
 #include "meshfree/check/bond_file.h"
-#include "meshfree/check/weights_in_space.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -280,13 +279,13 @@ namespace plumbline::check
   {
     if constexpr (dim == 2)
     {
-      const meshfree::GivenNodes nodes = meshfree::read_given_nodes(file);
+      const meshfree::GivenNodes<2> nodes = meshfree::read_given_nodes<2>(file);
       return {nodes.id, nodes.places, nodes.volume};
     }
     else
     {
-      const meshfree::WeightsInSpace nodes = meshfree::read_nodes_in_space(file);
-      return {nodes.id, nodes.places, nodes.volumes};
+      const meshfree::GivenNodes<3> nodes = meshfree::read_given_nodes<3>(file);
+      return {nodes.id, nodes.places, nodes.volume};
     }
   }
 

@@ -1,33 +1,30 @@
 #pragma once
 
 #include "check/requirements.h"
-#include "meshfree/check/weights_in_space.h"
+#include "meshfree/check/bond_values.h"
 
 namespace plumbline::check
 {
-  /// What is found of weights in space: moments, elastic constants, pairs, and on lattices whose
-  /// rule they are.
-  struct InSpace : meshfree::FindingsInSpace
-  {
-    meshfree::WeightsInSpace given;
-    problem::Level level;                ///< of the scene
-    std::vector<std::string> complaints; ///< what makes the exit code 1
-    std::string assumed;                 ///< see assumptions()
-  };
+  /// Takes nodes of a periodic box into it and adds their images, makes cells and spacing.
+  /// @param level        that the nodes are of
+  /// @param is_periodic  omega is
+  /// @return             weights without families and volumes
+  /// @throws InputError  no node in Ω, as geometry::PeriodicBox::take_in and check_sides
+  meshfree::GivenWeights<3> with_cells(meshfree::GivenNodes<3> nodes, const geometry::Cuboid &omega,
+                                       bool is_periodic, const problem::Level &level);
+
+  /// What is found of weights whose families are read.
+  /// @param values  as the other code has them
+  /// @param found   has its level
+  /// @param meant   rules that the weights may be of
+  void find_defects(meshfree::BondValues values, meshfree::GivenWeights<3> weights,
+                    const physics::Kernel<3> &kernel, const std::vector<std::string> &meant,
+                    Findings<3> &found);
 
   /// @pre     scene.domain.is_in_space()
-  /// @throws InputError  files that cannot be used; nodes whose spacing no level of the scene has
-  InSpace find_in_space(const scene::Scene &scene, const Input &input,
-                        const Requirements &required);
+  /// @throws InputError  files that cannot be used
+  Findings<3> find_in_space(const scene::Scene &scene, const Input &input);
 
-  /// The findings as a record, for other programs.
-  study::Record record_of(const InSpace &found);
-
-  /// For people; the answer last.
-  std::string text(const InSpace &found);
-
-  extern const char *const not_checked_in_space; ///< a sentence for the end of texts
-
-  /// For programs, as lib/io/results.schema.json describes it.
-  std::string to_json(const InSpace &found, const scene::Scene &scene);
+  /// The findings as a record, for a study of levels.
+  study::Record record_of(const Findings<3> &found);
 } // namespace plumbline::check

@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "check/body.h"
 #include "meshfree/check/images.h"
+#include "meshfree/check/sizes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,12 +35,17 @@ namespace plumbline::check
 
     const std::string cause_word = "cause: ", question = "do h and horizon belong to these bonds? ";
 
-    std::string point(const dealii::Point<2> &x)
+    template <int dim>
+    std::string point(const dealii::Point<dim> &x)
     {
-      return "(" + base::to_text(x[0], 5) + ", " + base::to_text(x[1], 5) + ")";
+      std::string text;
+      for (unsigned int d = 0; d < dim; ++d)
+        text += (d == 0 ? "(" : ", ") + base::to_text(x[d], 5);
+      return text + ")";
     }
 
-    std::string off(const Findings &found)
+    template <int dim>
+    std::string off(const Findings<dim> &found)
     {
       const Worst &first = found.moments.defects[0].worst, &second = found.moments.second;
       const std::string of_second = "second moments are off by " + base::to_percent(second.value) +
@@ -50,20 +56,23 @@ namespace plumbline::check
              found.id(first.node);
     }
 
-    double worst_of_both(const Findings &found)
+    template <int dim>
+    double worst_of_both(const Findings<dim> &found)
     {
       return std::max(found.moments.second.value, found.moments.defects[0].worst.value);
     }
 
-    std::string line_of(const Outlier &o, const Findings &found)
+    template <int dim>
+    std::string line_of(const Outlier<dim> &o, const Findings<dim> &found)
     {
-      return o.bond == Outlier::none
+      return o.bond == Outlier<dim>::none
                  ? ""
                  : " (line " + std::to_string(found.given.lines[o.node][o.bond]) + " of the bonds)";
     }
 
     /// The line of the bond back, from its neighbour.
-    std::string line_back(const Outlier &o, const Findings &found)
+    template <int dim>
+    std::string line_back(const Outlier<dim> &o, const Findings<dim> &found)
     {
       const auto &others = found.given.families[o.neighbour].neighbours;
       const auto back = std::lower_bound(others.begin(), others.end(), o.node);
@@ -71,7 +80,8 @@ namespace plumbline::check
       return " (line " + std::to_string(found.given.lines[o.neighbour][at]) + ")";
     }
 
-    std::string weight_text(const Outlier &o)
+    template <int dim>
+    std::string weight_text(const Outlier<dim> &o)
     {
       const double ratio = o.expected == 0 ? 0 : o.found / o.expected;
       std::string result = "has the weight " + base::to_text(o.found, 5) + " where " +
@@ -85,14 +95,16 @@ namespace plumbline::check
       return result;
     }
 
-    bool is_too_inexact(const Findings &found, const Requirements &required)
+    template <int dim>
+    bool is_too_inexact(const Findings<dim> &found, const Requirements &required)
     {
       return (required.ac && worst_of_both(found) > found.precision.moments) ||
              (required.moments && worst_of_both(found) > *required.moments);
     }
 
     /// What the moments make of the solution.
-    std::string consequence(const Findings &found)
+    template <int dim>
+    std::string consequence(const Findings<dim> &found)
     {
       const MomentCheck &moments = found.moments;
       const double limit = std::abs(moments.mean_ratio - 1), first = moments.defects[0].median;
@@ -152,11 +164,12 @@ namespace plumbline::check
     return required;
   }
 
-  std::string text(const Outlier &o, const Findings &found)
+  template <int dim>
+  std::string text(const Outlier<dim> &o, const Findings<dim> &found)
   {
     const std::string node = "node " + found.id(o.node);
     const std::string bond =
-        o.neighbour == Outlier::none
+        o.neighbour == Outlier<dim>::none
             ? ""
             : "the bond from node " + found.id(o.node) + " to node " + found.id(o.neighbour);
     switch (o.defect)
@@ -204,22 +217,24 @@ namespace plumbline::check
   namespace
   {
     /// Nodes whose volume is off by one factor.
+    template <int dim>
     struct Band
     {
       double ratio;
-      std::vector<const Outlier *> nodes;
+      std::vector<const Outlier<dim> *> nodes;
     };
 
-    std::vector<Band> volume_bands(const Findings &found)
+    template <int dim>
+    std::vector<Band<dim>> volume_bands(const Findings<dim> &found)
     {
       constexpr double same = 1e-3;
-      std::vector<Band> bands;
-      for (const Outlier &one : found.outliers)
+      std::vector<Band<dim>> bands;
+      for (const Outlier<dim> &one : found.outliers)
         if (one.defect == Defect::volume)
         {
           const double ratio = one.found / one.expected;
           const auto band = std::find_if(bands.begin(), bands.end(),
-                                         [&](const Band &other)
+                                         [&](const Band<dim> &other)
                                          { return std::abs(ratio / other.ratio - 1) < same; });
           if (band == bands.end())
             bands.push_back({ratio, {&one}});
@@ -229,10 +244,11 @@ namespace plumbline::check
       return bands;
     }
 
-    std::string text_of_band(const Band &band, const Findings &found)
+    template <int dim>
+    std::string text_of_band(const Band<dim> &band, const Findings<dim> &found)
     {
       std::vector<std::size_t> nodes;
-      for (const Outlier *one : band.nodes)
+      for (const Outlier<dim> *one : band.nodes)
         nodes.push_back(one->node);
       std::sort(nodes.begin(), nodes.end()); // those of the collar come last
       const std::size_t n_free = static_cast<std::size_t>(
@@ -249,13 +265,15 @@ namespace plumbline::check
       return "the volumes of " + (n_free > 0 ? list(0, n_free) : "") +
              (n_free > 0 && n > n_free ? " and of " : "") +
              (n > n_free ? list(n_free, n) + " in the collar" : "") + " are " +
-             base::to_text(band.ratio, 3) + " times the areas of their cells" +
+             base::to_text(band.ratio, 3) + " times the " + meshfree::measure<dim>() +
+             "s of their cells" +
              (found.volume_factor == 1
                   ? ""
                   : ", besides the factor " + base::to_text(found.volume_factor, 4) + " of all");
     }
 
-    void add_outliers(const Findings &found, std::vector<std::string> &complaints)
+    template <int dim>
+    void add_outliers(const Findings<dim> &found, std::vector<std::string> &complaints)
     {
       std::size_t n_named = 0, n_lines = 0;
       const auto add = [&](const std::string &text, std::size_t n)
@@ -265,10 +283,10 @@ namespace plumbline::check
         complaints.push_back("outlier: " + text);
         n_named += n;
       };
-      for (const Band &band : volume_bands(found))
+      for (const Band<dim> &band : volume_bands(found))
         add(band.nodes.size() == 1 ? text(*band.nodes.front(), found) : text_of_band(band, found),
             band.nodes.size());
-      for (const Outlier &one : found.outliers)
+      for (const Outlier<dim> &one : found.outliers)
         if (one.defect != Defect::volume)
           add(text(one, found), 1);
       if (n_named < found.outliers.size())
@@ -288,57 +306,64 @@ namespace plumbline::check
       return of_body;
     }
 
-    double longest_bond(const Findings &found)
+    template <int dim>
+    double longest_bond(const Findings<dim> &found)
     {
       double longest = 0;
-      for (const Family<2> &family : found.given.families)
-        for (const Bond<2> &bond : family.bonds)
+      for (const Family<dim> &family : found.given.families)
+        for (const Bond<dim> &bond : family.bonds)
           longest = std::max(longest, bond.xi.norm());
       return longest;
     }
 
     /// Whether bonds have the lengths of a lattice of squares.
-    bool is_on_lattice(const Findings &found)
+    template <int dim>
+    bool is_on_lattice(const Findings<dim> &found)
     {
       constexpr double tolerance = 1e-6;
       const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < tolerance; };
-      for (const Family<2> &family : found.given.families)
-        for (const Bond<2> &bond : family.bonds)
-          if (!is_whole(bond.xi[0] / found.level.node_size) ||
-              !is_whole(bond.xi[1] / found.level.node_size))
-            return false;
+      for (const Family<dim> &family : found.given.families)
+        for (const Bond<dim> &bond : family.bonds)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!is_whole(bond.xi[d] / found.level.node_size))
+              return false;
       return true;
     }
 
     /// The largest distance of lattice nodes in the ball, without its boundary [spacings].
+    template <int dim>
     double largest_shell(double radius)
     {
       constexpr double boundary = 1e-6;
       double largest = 0;
       for (int i = 0; i < radius; ++i)
         for (int j = 0; j <= i; ++j)
-          if (const double r = std::hypot(i, j); r < radius * (1 - boundary))
-            largest = std::max(largest, r);
+          for (int k = 0; k <= (dim == 3 ? j : 0); ++k)
+            if (const double r = std::hypot(i, j, k); r < radius * (1 - boundary))
+              largest = std::max(largest, r);
       return largest;
     }
 
     /// The horizon is not that of the bonds: it differs by more than a spacing, or there are nodes
     /// of a lattice between the longest bond and it, or bonds of a lattice reach cells outside of
     /// the ball.
-    bool is_other_horizon(const Findings &found)
+    template <int dim>
+    bool is_other_horizon(const Findings<dim> &found)
     {
-      constexpr double shell = 1.05, diagonal = .75, tolerance = 1e-6; // spacings
+      constexpr double shell = 1.05, diagonal = dim == 2 ? .75 : .9, tolerance = 1e-6; // spacings
       const double horizon = found.level.level.horizon, spacing = found.level.node_size,
                    longest = longest_bond(found);
-      return longest > 0 && (std::abs(longest - horizon) > shell * spacing ||
-                             ((longest < (largest_shell(horizon / spacing) - tolerance) * spacing ||
-                               longest > horizon + diagonal * spacing) &&
-                              is_on_lattice(found)));
+      return longest > 0 &&
+             (std::abs(longest - horizon) > shell * spacing ||
+              ((longest < (largest_shell<dim>(horizon / spacing) - tolerance) * spacing ||
+                longest > horizon + diagonal * spacing) &&
+               is_on_lattice(found)));
     }
 
     /// Moments are those of the scene's horizon: if that is not the horizon of the bonds, all
     /// weights seem wrong, and any cause that is named would be a wrong one.
-    std::string scene_mismatch(const Findings &found)
+    template <int dim>
+    std::string scene_mismatch(const Findings<dim> &found)
     {
       const double h = found.level.level.h, horizon = found.level.level.horizon,
                    spacing = found.level.node_size, longest = longest_bond(found);
@@ -356,7 +381,36 @@ namespace plumbline::check
                                 "of a different ball, and no cause is named";
     }
 
-    std::vector<std::string> interior_complaints(const Findings &found,
+    /// @param is_whole  no bond is known to be missing
+    template <int dim>
+    void add_matrix(const Findings<dim> &found, const Requirements &required, bool is_whole,
+                    std::vector<std::string> &result)
+    {
+      if (!Findings<dim>::has_matrix)
+      {
+        if (required.m_matrix && !found.elastic.empty())
+          result.push_back("required m-matrix: matrices of bond tensors have positive entries off "
+                           "their diagonal; leave this requirement out");
+        else if (required.m_matrix && found.weights.n_negative > 0)
+          result.push_back("required m-matrix: " + std::to_string(found.weights.n_negative) +
+                           " weights are negative");
+        return;
+      }
+      if (required.m_matrix && !found.matrix.is_m_matrix())
+        result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
+                         " rows with positive off-diagonal entries, " +
+                         std::to_string(found.matrix.n_weak) + " not diagonally dominant, " +
+                         std::to_string(found.matrix.n_loose) + " not tied to the data");
+      if (!found.matrix_failure.empty())
+        result.push_back("the matrix cannot be examined: " + found.matrix_failure);
+      else if (is_whole && !found.matrix.is_positive_definite())
+        result.push_back("the matrix is NOT positive definite: " +
+                         std::to_string(found.matrix.n_negative_eigenvalues) +
+                         " negative eigenvalues");
+    }
+
+    template <int dim>
+    std::vector<std::string> interior_complaints(const Findings<dim> &found,
                                                  const Requirements &required)
     {
       std::vector<std::string> result;
@@ -387,17 +441,7 @@ namespace plumbline::check
                          " of the largest, between nodes " + found.id(found.symmetry.nodes[0]) +
                          " and " + found.id(found.symmetry.nodes[1]) + "; " +
                          std::to_string(found.symmetry.n_unpaired) + " bonds without a partner");
-      if (required.m_matrix && !found.matrix.is_m_matrix())
-        result.push_back("required m-matrix: " + std::to_string(found.matrix.n_positive) +
-                         " rows with positive off-diagonal entries, " +
-                         std::to_string(found.matrix.n_weak) + " not diagonally dominant, " +
-                         std::to_string(found.matrix.n_loose) + " not tied to the data");
-      if (!found.matrix_failure.empty())
-        result.push_back("the matrix cannot be examined: " + found.matrix_failure);
-      else if (no_crossing.empty() && !found.matrix.is_positive_definite())
-        result.push_back("the matrix is NOT positive definite: " +
-                         std::to_string(found.matrix.n_negative_eigenvalues) +
-                         " negative eigenvalues");
+      add_matrix(found, required, no_crossing.empty(), result);
       if (const std::string mismatch = scene_mismatch(found); !mismatch.empty() && !result.empty())
       {
         const auto is_cause = [](const std::string &one) { return one.find(cause_word) == 0; };
@@ -407,7 +451,8 @@ namespace plumbline::check
       return result;
     }
 
-    std::vector<std::string> interior_verdicts(const Findings &found)
+    template <int dim>
+    std::vector<std::string> interior_verdicts(const Findings<dim> &found)
     {
       const MomentCheck &moments = found.moments;
       std::vector<std::string> result;
@@ -446,17 +491,21 @@ namespace plumbline::check
         result.push_back(std::to_string(found.n_on_boundary) +
                          " free nodes lie on the boundary of the domain; if they carry data, write "
                          "Methods/nodes = vertices");
-      if (found.matrix_failure.empty() && found.matrix.is_positive_definite())
+      if (found.has_matrix && found.matrix_failure.empty() && found.matrix.is_positive_definite())
         result.push_back(found.nodes.box ? "positive definite with u prescribed around the box"
                                          : "positive definite");
       return result;
     }
   } // namespace
 
-  std::vector<std::string> complaints(const Findings &found, const Requirements &required)
+  template <int dim>
+  std::vector<std::string> complaints(const Findings<dim> &found, const Requirements &required)
   {
     const std::vector<std::string> result = interior_complaints(found, required);
-    return found.body ? after_body(body_complaints(found, required), result) : result;
+    if constexpr (dim == 2)
+      if (found.body)
+        return after_body(body_complaints(found, required), result);
+    return result;
   }
 
   bool is_question(const std::string &complaint)
@@ -464,9 +513,21 @@ namespace plumbline::check
     return complaint.find(question) == 0;
   }
 
-  std::vector<std::string> verdicts(const Findings &found)
+  template <int dim>
+  std::vector<std::string> verdicts(const Findings<dim> &found)
   {
     const std::vector<std::string> result = interior_verdicts(found);
-    return found.body ? after_body(body_verdicts(found), result) : result;
+    if constexpr (dim == 2)
+      if (found.body)
+        return after_body(body_verdicts(found), result);
+    return result;
   }
+
+  template std::vector<std::string> complaints(const Findings<2> &, const Requirements &);
+  template std::vector<std::string> verdicts(const Findings<2> &);
+  template std::string text(const Outlier<2> &, const Findings<2> &);
+
+  template std::vector<std::string> complaints(const Findings<3> &, const Requirements &);
+  template std::vector<std::string> verdicts(const Findings<3> &);
+  template std::string text(const Outlier<3> &, const Findings<3> &);
 } // namespace plumbline::check

@@ -27,14 +27,17 @@ namespace plumbline::check
 
   /// What makes the exit code 1: requirements that do not hold; a matrix that is not positive
   /// definite, a cause of all weights, outliers, whatever is required.
-  std::vector<std::string> complaints(const Findings &found, const Requirements &required);
+  template <int dim>
+  std::vector<std::string> complaints(const Findings<dim> &found, const Requirements &required);
 
   /// Whether a complaint doubts that the scene belongs to the bonds: all others rest on that.
   bool is_question(const std::string &complaint);
 
   /// What else there is to say.
-  std::vector<std::string> verdicts(const Findings &found);
+  template <int dim>
+  std::vector<std::string> verdicts(const Findings<dim> &found);
 
   /// One outlier in words: which, where in the files, what is expected.
-  std::string text(const meshfree::Outlier &outlier, const Findings &found);
+  template <int dim>
+  std::string text(const meshfree::Outlier<dim> &outlier, const Findings<dim> &found);
 } // namespace plumbline::check

@@ -38,23 +38,21 @@ namespace plumbline::check
     return std::abs(std::log(node_size / level.h)) <= alike;
   }
 
+  ChosenLevel choose_level(const scene::Scene &scene, double spacing)
+  {
+    const problem::Series &first = scene.study.series.front();
+    ChosenLevel chosen{first.levels.front(), first.name, spacing};
+    const auto distance = [&](const problem::Level &level)
+    { return std::abs(std::log(level.h / spacing)); };
+    for (const problem::Series &series : scene.study.series)
+      for (const problem::Level &level : series.levels)
+        if (distance(level) < distance(chosen.level))
+          chosen = {level, series.name, spacing};
+    return chosen;
+  }
+
   namespace
   {
-    /// The level whose h is nearest to the spacing of the nodes, by their ratio.
-    ChosenLevel choose_level(const scene::Scene &scene, const GivenNodes &nodes)
-    {
-      const problem::Series &first = scene.study.series.front();
-      const double size = node_spacing(nodes, scene::make_mesh(scene, first.levels.front()));
-      ChosenLevel chosen{first.levels.front(), first.name, size};
-      const auto distance = [&](const problem::Level &level)
-      { return std::abs(std::log(level.h / size)); };
-      for (const problem::Series &series : scene.study.series)
-        for (const problem::Level &level : series.levels)
-          if (distance(level) < distance(chosen.level))
-            chosen = {level, series.name, size};
-      return chosen;
-    }
-
     /// That of the scene, or Q1 or P1.
     std::shared_ptr<const method::Method> reference_method(const scene::Scene &scene,
                                                            const problem::Problem<2> &problem,
@@ -219,21 +217,26 @@ namespace plumbline::check
         parts.push_back(mesh.polygon(c));
       return parts;
     }
-
-    /// How the files were read, and with which horizon.
-    std::vector<std::string> all_notes(const Findings &found, const std::string &assumed,
-                                       const Input &input)
-    {
-      std::vector<std::string> result;
-      if (!assumed.empty())
-        result.push_back(assumed);
-      for (const auto &[file, notes] : {std::pair{input.nodes_file, found.nodes.notes},
-                                        std::pair{input.bonds_file, found.given.notes}})
-        for (const std::string &note : notes)
-          result.push_back("'" + file + "': " + note);
-      return result;
-    }
   } // namespace
+
+  template <int dim>
+  std::vector<std::string> notes_of(const Findings<dim> &found, const std::string &assumed,
+                                    const Input &input)
+  {
+    std::vector<std::string> result;
+    if (!assumed.empty())
+      result.push_back(assumed);
+    for (const auto &[file, notes] : {std::pair{input.nodes_file, found.nodes.notes},
+                                      std::pair{input.bonds_file, found.given.notes}})
+      for (const std::string &note : notes)
+        result.push_back("'" + file + "': " + note);
+    return result;
+  }
+
+  template std::vector<std::string> notes_of(const Findings<2> &, const std::string &,
+                                             const Input &);
+  template std::vector<std::string> notes_of(const Findings<3> &, const std::string &,
+                                             const Input &);
 
   std::string assumptions(const scene::Scene &scene, const Input &input,
                           const problem::Level &level)
@@ -251,17 +254,17 @@ namespace plumbline::check
            " is assumed";
   }
 
-  Findings find(scene::Scene scene, const Input &input, const method::Methods &references,
-                const study::Records &known)
+  Findings<2> find(scene::Scene scene, const Input &input, const method::Methods &references,
+                   const study::Records &known)
   {
     check_analysis(scene, scene::Analysis::check);
     GivenBody body = body_of(scene, input);
     scene.domain.is_free_body = body.is_free();
-    Findings found;
+    Findings<2> found;
     found.scene_name = scene.name;
     found.purpose = scene.purpose;
-    GivenWeights weights;
-    weights.nodes = read_given_nodes(input.nodes_file);
+    GivenWeights<2> weights;
+    weights.nodes = read_given_nodes<2>(input.nodes_file);
     weights.nodes.origin = scene.domain.origin;
     geometry::move_to(weights.nodes.origin, weights.nodes.places);
     const bool boundary_is_data =
@@ -275,7 +278,9 @@ namespace plumbline::check
       scene.domain.mesh.name = "squares";
     scene.methods.nodes = {std::filesystem::absolute(input.nodes_file).string()};
     scene.study.norms = {scene::Norm::nodal_linf, scene::Norm::averages_l2};
-    found.level = choose_level(scene, weights.nodes);
+    found.level = choose_level(
+        scene, node_spacing(weights.nodes,
+                            scene::make_mesh(scene, scene.study.series.front().levels.front())));
     const problem::Level &level = found.level.level;
     const geometry::Mesh mesh =
         scene::make_mesh(scene, {level.h, body.is_periodic() ? body.collar(level) : level.horizon});
@@ -287,7 +292,7 @@ namespace plumbline::check
                                            ? ""
                                            : ", while the nodes' spacing is " +
                                                  base::to_text(found.level.node_size, 6)));
-    GivenCells cells = given_cells(weights.nodes, mesh, boundary_is_data);
+    GivenCells<2> cells = given_cells(weights.nodes, mesh, boundary_is_data);
     weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
     found.n_on_boundary = boundary_is_data || body.is_free() ? 0 : cells.n_on_boundary;
     const auto case_of = [&, of_nodes = weights.cells](unsigned int c)
@@ -307,7 +312,7 @@ namespace plumbline::check
     find_defects(body, "--crack", to_bond_values(input.bonds_are, "--bonds-are"),
                  std::move(weights), cells.uncut_areas, std::move(problem), scene.methods.names,
                  found);
-    found.notes = all_notes(found, assumptions(scene, input, found.level.level), input);
+    found.notes = notes_of(found, assumptions(scene, input, found.level.level), input);
     if (has_no_solutions)
       return found;
     const FamilySource<2> source = [&](std::size_t i, Family<2> &family)

@@ -32,7 +32,7 @@ namespace plumbline::check
   {
     problem::Level level;
     std::string series;
-    double node_size = 0; ///< spacing of the nodes in Ω: √ of the mean area of their cells [length]
+    double node_size = 0; ///< spacing of the nodes in Ω: see meshfree::node_spacing [length]
 
     std::string text() const;
     bool is_near() const; ///< h is the spacing, as closely as that of scattered nodes can be told
@@ -48,7 +48,8 @@ namespace plumbline::check
   };
 
   /// All that is found of the weights of another code on a scene.
-  struct Findings : meshfree::Findings
+  template <int dim>
+  struct Findings : meshfree::Findings<dim>
   {
     std::string scene_name, purpose;
     std::vector<std::int64_t> ids;       ///< of the nodes, numbered as the cells
@@ -57,8 +58,8 @@ namespace plumbline::check
     std::vector<std::size_t> n_crossing; ///< bonds across the sides of a periodic box, else empty
     ChosenLevel level;
     std::vector<CaseCheck> cases; ///< none of bodies
-    /// Of a body with free surfaces or cracks, whose families of whole balls are all that the other
-    /// members are about.
+    /// Of a body with free surfaces or cracks, in the plane, whose families of whole balls are all
+    /// that the other members are about.
     std::optional<meshfree::BodyCheck> body = {};
 
     std::string id(std::size_t node) const { return std::to_string(ids[node]); }
@@ -69,6 +70,14 @@ namespace plumbline::check
   std::string assumptions(const scene::Scene &scene, const Input &input,
                           const problem::Level &level);
 
+  /// The level whose h is nearest to the spacing of the nodes, by their ratio.
+  ChosenLevel choose_level(const scene::Scene &scene, double spacing);
+
+  /// How the files were read, and with which horizon.
+  template <int dim>
+  std::vector<std::string> notes_of(const Findings<dim> &found, const std::string &assumed,
+                                    const Input &input);
+
   /// @param references  Galerkin methods for the solutions that those by the weights are held
   /// against
   /// @param known       records of cases that an earlier check of the same has left: not solved
@@ -76,6 +85,6 @@ namespace plumbline::check
   /// @note Collective: the solutions are shared among the ranks.
   /// @throws InputError      files or a scene that cannot be used
   /// @throws NumericalError  no solution by the reference
-  Findings find(scene::Scene scene, const Input &input, const method::Methods &references,
-                const study::Records &known = {});
+  Findings<2> find(scene::Scene scene, const Input &input, const method::Methods &references,
+                   const study::Records &known = {});
 } // namespace plumbline::check

@@ -75,7 +75,7 @@ namespace plumbline::check
       }
     };
 
-    study::Records records_of(const Findings &found)
+    study::Records records_of(const Findings<2> &found)
     {
       study::Records records;
       for (const CaseCheck &one : found.cases)
@@ -112,14 +112,16 @@ namespace plumbline::check
       return trends;
     }
 
-    std::vector<report::Cell> cells_of(const problem::Level &level, std::size_t n_bonds,
-                                       double first, double second, double median,
-                                       const std::string &rule)
+    template <int dim>
+    std::vector<report::Cell> row_of(const Findings<dim> &found)
     {
-      return {report::number_cell(level.h), report::number_cell(level.horizon),
-              report::count_cell(n_bonds),  report::error_cell(first),
-              report::error_cell(second),   report::error_cell(median),
-              report::text_cell(rule)};
+      return {report::number_cell(found.level.level.h),
+              report::number_cell(found.level.level.horizon),
+              report::count_cell(found.weights.n_bonds),
+              report::error_cell(found.moments.defects[0].worst.value),
+              report::error_cell(found.moments.second.value),
+              report::error_cell(found.moments.defects[1].median),
+              report::text_cell(found.rule)};
     }
 
     Table table_of(const Series &all)
@@ -131,14 +133,11 @@ namespace plumbline::check
       for (const study::Trend &trend : trends)
         for (const char *const what : {"error of ", "rate of "})
           table.columns.emplace_back(what + trend.problem);
-      for (const InSpace &found : all.levels_in_space)
-        table.rows.push_back(cells_of(found.level, found.n_bonds, found.first.value,
-                                      found.second.value, found.typical, found.rule));
-      for (const Findings &found : all.levels)
+      for (const Findings<3> &found : all.levels_in_space)
+        table.rows.push_back(row_of(found));
+      for (const Findings<2> &found : all.levels)
       {
-        table.rows.push_back(
-            cells_of(found.level.level, found.weights.n_bonds, found.moments.defects[0].worst.value,
-                     found.moments.second.value, found.moments.defects[1].median, found.rule));
+        table.rows.push_back(row_of(found));
         for (const study::Trend &trend : trends)
         {
           const auto place =
@@ -158,7 +157,8 @@ namespace plumbline::check
       return nlohmann::ordered_json::parse(json);
     }
 
-    int exit_code(const Findings &found, const Requirements &required)
+    template <int dim>
+    int exit_code(const Findings<dim> &found, const Requirements &required)
     {
       return complaints(found, required).empty() ? 0 : 1;
     }
@@ -223,7 +223,7 @@ namespace plumbline::check
   }
 
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const Requirements &required, const study::RunControl &control)
+                     const study::RunControl &control)
   {
     Series found;
     study::Records made; // of the present level
@@ -234,8 +234,7 @@ namespace plumbline::check
       const scene::Scene scene = at_level_alone(files.scene, place.level());
       const Input &input = files.inputs[place.number()];
       if (scene.domain.is_in_space())
-        made = {
-            record_of(found.levels_in_space.emplace_back(find_in_space(scene, input, required)))};
+        made = {record_of(found.levels_in_space.emplace_back(find_in_space(scene, input)))};
       else
         made = records_of(
             found.levels.emplace_back(find(scene, input, references, control.earlier.records)));
@@ -259,12 +258,15 @@ namespace plumbline::check
   std::vector<std::string> complaints(const Series &found, const Requirements &required)
   {
     std::vector<std::string> wrong;
-    for (const Findings &level : found.levels)
+    const auto add = [&](const auto &level)
+    {
       for (const std::string &one : complaints(level, required))
         wrong.push_back("h = " + base::to_text(level.level.level.h, 6) + ": " + one);
-    for (const InSpace &level : found.levels_in_space)
-      for (const std::string &one : level.complaints)
-        wrong.push_back("h = " + base::to_text(level.level.h, 6) + ": " + one);
+    };
+    for (const Findings<2> &level : found.levels)
+      add(level);
+    for (const Findings<3> &level : found.levels_in_space)
+      add(level);
     for (const study::Trend &trend : found.trends)
       if (required.ac &&
           (trend.outcome == study::Outcome::stalls || trend.outcome == study::Outcome::failed))
@@ -297,14 +299,17 @@ namespace plumbline::check
 
   std::string to_json(const Series &found, const LevelFiles &files, const Requirements &required)
   {
-    if (files.scene.domain.is_in_space())
-      return io::to_json(found.results);
     const std::vector<std::string> wrong = complaints(found, required);
     nlohmann::ordered_json json = {{"schema", check_schema},
                                    {"levels", nlohmann::ordered_json::array()}};
-    for (std::size_t k = 0; k < found.levels.size(); ++k)
-      json["levels"].push_back(parsed(check_json(found.levels[k], required, files.inputs[k],
-                                                 exit_code(found.levels[k], required))));
+    const auto add = [&](const auto &levels)
+    {
+      for (std::size_t k = 0; k < levels.size(); ++k)
+        json["levels"].push_back(parsed(
+            check_json(levels[k], required, files.inputs[k], exit_code(levels[k], required))));
+    };
+    add(found.levels);
+    add(found.levels_in_space);
     json["study"] = parsed(io::to_json(found.results));
     json["complaints"] = wrong;
     json["exit_code"] = wrong.empty() ? 0 : 1;
@@ -316,15 +321,19 @@ namespace plumbline::check
   {
     report::write_file(folder / "check.json", to_json(found, files, required));
     report::write_file(folder / "levels.csv", report::to_csv(table_of(found)));
+    const auto write_levels = [&](const auto &levels)
+    {
+      for (std::size_t k = 0; k < levels.size(); ++k)
+      {
+        const fs::path own = folder / level_name(files.levels[k].h);
+        fs::create_directories(own);
+        write_check(levels[k], required, files.inputs[k], exit_code(levels[k], required), own);
+      }
+    };
+    write_levels(found.levels);
+    write_levels(found.levels_in_space);
     if (files.scene.domain.is_in_space())
       return;
-    for (std::size_t k = 0; k < found.levels.size(); ++k)
-    {
-      const fs::path own = folder / level_name(files.levels[k].h);
-      fs::create_directories(own);
-      write_check(found.levels[k], required, files.inputs[k], exit_code(found.levels[k], required),
-                  own);
-    }
     report::write_study(report::statics_view(found.results), found.results, folder);
   }
 } // namespace plumbline::check

@@ -30,8 +30,8 @@ namespace plumbline::check
   /// together: rates, and whether they converge to the limit. In space nothing is solved.
   struct Series
   {
-    std::vector<Findings> levels;
-    std::vector<InSpace> levels_in_space; ///< instead of those
+    std::vector<Findings<2>> levels;
+    std::vector<Findings<3>> levels_in_space; ///< instead of those
     study::StudyResults results;
     std::vector<study::Trend> trends; ///< of the weights, by the error that decides
     std::string assumed;              ///< see assumptions()
@@ -41,7 +41,7 @@ namespace plumbline::check
   /// interrupt. Solutions whose records an earlier one has left are not made again.
   /// @param references  as of find(), whose errors it throws
   Series find_series(const LevelFiles &files, const method::Methods &references,
-                     const Requirements &required, const study::RunControl &control);
+                     const study::RunControl &control);
 
   /// Of all levels, and 'required ac' where the errors stall.
   std::vector<std::string> complaints(const Series &found, const Requirements &required);
@@ -52,8 +52,8 @@ namespace plumbline::check
 
   std::string to_json(const Series &found, const LevelFiles &files, const Requirements &required);
 
-  /// check.json and levels.csv; in the plane a page for each level, and that of the study with
-  /// charts over h.
+  /// check.json, levels.csv and a page for each level; in the plane that of the study with charts
+  /// over h, too.
   void write_series(const Series &found, const LevelFiles &files, const Requirements &required,
                     const std::filesystem::path &folder);
 } // namespace plumbline::check

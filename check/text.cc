@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "check/body.h"
+#include "meshfree/check/sizes.h"
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/solution_record.h"
@@ -18,27 +19,35 @@ namespace plumbline::check
   using namespace meshfree;
   using Json = nlohmann::ordered_json;
 
+  const char *const not_checked_in_space =
+      "not checked in three dimensions: matrix, solutions; no maps are drawn\n";
+
   namespace
   {
     constexpr std::size_t n_columns = report::summary_columns;
     constexpr double round_off = 1e-10; // of sums that are printed with three digits
 
     /// Nodes of Ω.
-    std::size_t n_of_domain(const Findings &found)
+    template <int dim>
+    std::size_t n_of_domain(const Findings<dim> &found)
     {
       return found.body ? found.body->n_families : found.cells->n_free;
     }
 
-    void tell_body(std::ostream &out, const Findings &found)
+    template <int dim>
+    void tell_body(std::ostream &out, const Findings<dim> &found)
     {
-      if (found.body)
-        out << report::to_text(body_table(found), n_columns)
-            << "moments below are those of the interior; solutions are not compared\n";
+      if constexpr (dim == 2)
+        if (found.body)
+          out << report::to_text(body_table(found), n_columns)
+              << "moments below are those of the interior; solutions are not compared\n";
     }
 
-    void tell_nodes(std::ostream &out, const Findings &found, const Input &input)
+    template <int dim>
+    void tell_nodes(std::ostream &out, const Findings<dim> &found, const Input &input)
     {
       const std::size_t n_free = n_of_domain(found);
+      const std::string measure = std::string(meshfree::measure<dim>()) + "s";
       out << "nodes     " << input.nodes_file << ": " << n_free;
       if (found.nodes.box)
         out << " in the periodic box";
@@ -46,8 +55,9 @@ namespace plumbline::check
         out << " free, " << found.ids.size() - n_free << " in the interaction domain";
       out << "; volumes "
           << (std::abs(found.volume_defect) < round_off
-                  ? "equal the cells' areas"
-                  : "differ from the cells' areas by " + base::to_percent(found.volume_defect))
+                  ? "equal the cells' " + measure
+                  : "differ from the cells' " + measure + " by " +
+                        base::to_percent(found.volume_defect))
           << '\n'
           << "bonds     " << input.bonds_file << ": "
           << (found.body ? found.body->n_bonds : found.weights.n_bonds) << ", at most "
@@ -60,7 +70,8 @@ namespace plumbline::check
         out << "read      " << note << '\n';
     }
 
-    void tell_moments(std::ostream &out, const Findings &found)
+    template <int dim>
+    void tell_moments(std::ostream &out, const Findings<dim> &found)
     {
       out << "moments   degree  worst       median      worst at\n";
       for (const MomentDefect &defect : found.moments.defects)
@@ -72,11 +83,14 @@ namespace plumbline::check
     }
 
     /// One line for E and nu, before what a short summary cuts off.
-    void tell_moduli(std::ostream &out, const Findings &found)
+    template <int dim>
+    void tell_moduli(std::ostream &out, const Findings<dim> &found)
     {
       std::string text;
       for (const ElasticRange &one : found.elastic)
-        if (const std::size_t state = one.name.find(", plane"); state != std::string::npos)
+        if (dim == 3 && (one.name == "E" || one.name == "nu"))
+          text += (text.empty() ? "" : ", ") + one.name + " = " + base::to_text(one.median, 4);
+        else if (const std::size_t state = one.name.find(", plane"); state != std::string::npos)
         {
           const bool is_first = one.name[0] == 'E';
           text += (text.empty() ? ""
@@ -89,7 +103,8 @@ namespace plumbline::check
         out << "moduli    " << text << " (medians over the nodes)\n";
     }
 
-    void tell_elastic(std::ostream &out, const Findings &found)
+    template <int dim>
+    void tell_elastic(std::ostream &out, const Findings<dim> &found)
     {
       if (found.elastic.empty())
         return;
@@ -99,7 +114,8 @@ namespace plumbline::check
             << std::setw(12) << one.median << one.largest << '\n';
     }
 
-    void tell_operator(std::ostream &out, const Findings &found)
+    template <int dim>
+    void tell_operator(std::ostream &out, const Findings<dim> &found)
     {
       const auto id = [&](std::size_t node) { return found.ids[node]; };
       out << "weights   " << found.weights.n_negative << " negative, "
@@ -115,8 +131,13 @@ namespace plumbline::check
             << id(found.symmetry.nodes[1]);
       out << "\n          V_i w_ij C and V_j w_ji C by "
           << base::to_percent(found.symmetry.imbalance) << "; " << found.symmetry.n_unpaired
-          << " bonds without a partner\n"
-          << "matrix    " << found.matrix.n_positive
+          << " bonds without a partner\n";
+      if (!found.has_matrix)
+      {
+        out << not_checked_in_space;
+        return;
+      }
+      out << "matrix    " << found.matrix.n_positive
           << " rows with positive off-diagonal entries (no M-matrix if any), "
           << found.matrix.n_weak << " not diagonally dominant\n"
           << "          symmetric part: " << found.matrix.n_negative_eigenvalues
@@ -171,8 +192,9 @@ namespace plumbline::check
     return text;
   }
 
-  std::string check_text(const Findings &found, const Requirements &required, const Input &input,
-                         const std::string &page)
+  template <int dim>
+  std::string check_text(const Findings<dim> &found, const Requirements &required,
+                         const Input &input, const std::string &page)
   {
     std::ostringstream out;
     out << std::setprecision(4) << "report    " << page << '\n';
@@ -195,12 +217,14 @@ namespace plumbline::check
 
   namespace
   {
-    Json to_json(const Worst &worst, const Findings &found)
+    template <int dim>
+    Json to_json(const Worst &worst, const Findings<dim> &found)
     {
       return {{"value", worst.value}, {"node", found.ids[worst.node]}};
     }
 
-    void add_sizes(Json &json, const Findings &found)
+    template <int dim>
+    void add_sizes(Json &json, const Findings<dim> &found)
     {
       json["n_free"] = n_of_domain(found);
       json["n_collar"] = found.ids.size() - n_of_domain(found) - found.nodes.n_images;
@@ -216,7 +240,8 @@ namespace plumbline::check
       json["notes"] = found.notes;
     }
 
-    void add_moments(Json &json, const Findings &found)
+    template <int dim>
+    void add_moments(Json &json, const Findings<dim> &found)
     {
       for (const MomentDefect &defect : found.moments.defects)
         json["moments"].push_back({{"degree", defect.degree},
@@ -231,7 +256,8 @@ namespace plumbline::check
     }
 
     /// What the weights are, and what may be wrong with them.
-    void add_causes(Json &json, const Findings &found)
+    template <int dim>
+    void add_causes(Json &json, const Findings<dim> &found)
     {
       json["rule"] = found.rule.empty() ? Json()
                                         : Json{{"name", found.rule},
@@ -247,17 +273,20 @@ namespace plumbline::check
                                   {"worst_before", cause.worst_before},
                                   {"worst_after", cause.worst_after}});
       json["outliers"] = Json::array();
-      for (const Outlier &o : found.outliers)
+      for (const Outlier<dim> &o : found.outliers)
         json["outliers"].push_back(
             {{"node", found.ids[o.node]},
-             {"neighbour", o.neighbour == Outlier::none ? Json() : Json(found.ids[o.neighbour])},
-             {"line", o.bond == Outlier::none ? Json() : Json(found.given.lines[o.node][o.bond])},
+             {"neighbour",
+              o.neighbour == Outlier<dim>::none ? Json() : Json(found.ids[o.neighbour])},
+             {"line",
+              o.bond == Outlier<dim>::none ? Json() : Json(found.given.lines[o.node][o.bond])},
              {"found", o.found},
              {"expected", o.expected},
              {"text", text(o, found)}});
     }
 
-    void add_operator(Json &json, const Findings &found)
+    template <int dim>
+    void add_operator(Json &json, const Findings<dim> &found)
     {
       json["weights"] = {{"n_negative", found.weights.n_negative},
                          {"smallest_ratio", found.weights.smallest_ratio},
@@ -268,13 +297,15 @@ namespace plumbline::check
           {"imbalance", found.symmetry.imbalance},
           {"nodes", {found.ids[found.symmetry.nodes[0]], found.ids[found.symmetry.nodes[1]]}},
           {"n_unpaired", found.symmetry.n_unpaired}};
-      json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},
-                        {"n_rows_not_dominant", found.matrix.n_weak},
-                        {"n_negative_eigenvalues", found.matrix.n_negative_eigenvalues},
-                        {"smallest_eigenvalue", found.matrix.smallest_eigenvalue}};
+      if (found.has_matrix)
+        json["matrix"] = {{"n_rows_with_positive_entries", found.matrix.n_positive},
+                          {"n_rows_not_dominant", found.matrix.n_weak},
+                          {"n_negative_eigenvalues", found.matrix.n_negative_eigenvalues},
+                          {"smallest_eigenvalue", found.matrix.smallest_eigenvalue}};
     }
 
-    void add_solutions(Json &json, const Findings &found)
+    template <int dim>
+    void add_solutions(Json &json, const Findings<dim> &found)
     {
       for (const CaseCheck &one : found.cases)
         json["solutions"].push_back({{"case", one.name()},
@@ -285,16 +316,18 @@ namespace plumbline::check
     }
   } // namespace
 
-  std::string check_json(const Findings &found, const Requirements &required, const Input &input,
-                         int exit_code)
+  template <int dim>
+  std::string check_json(const Findings<dim> &found, const Requirements &required,
+                         const Input &input, int exit_code)
   {
     Json json = {{"schema", check_schema},
                  {"nodes", input.nodes_file},
                  {"bonds", input.bonds_file},
                  {"scene", input.scene_file}};
     add_sizes(json, found);
-    if (found.body)
-      json["body"] = Json::parse(body_json(found));
+    if constexpr (dim == 2)
+      if (found.body)
+        json["body"] = Json::parse(body_json(found));
     add_moments(json, found);
     add_causes(json, found);
     add_operator(json, found);
@@ -304,4 +337,12 @@ namespace plumbline::check
     json["exit_code"] = exit_code;
     return json.dump(2) + '\n';
   }
+
+  template std::string check_text(const Findings<2> &, const Requirements &, const Input &,
+                                  const std::string &);
+  template std::string check_json(const Findings<2> &, const Requirements &, const Input &, int);
+
+  template std::string check_text(const Findings<3> &, const Requirements &, const Input &,
+                                  const std::string &);
+  template std::string check_json(const Findings<3> &, const Requirements &, const Input &, int);
 } // namespace plumbline::check

@@ -15,13 +15,17 @@ namespace plumbline::check
 
   /// What is found, for people; the answer last.
   /// @param page  of the report
-  std::string check_text(const Findings &found, const Requirements &required, const Input &input,
-                         const std::string &page);
+  template <int dim>
+  std::string check_text(const Findings<dim> &found, const Requirements &required,
+                         const Input &input, const std::string &page);
 
-  /// The number under "schema" of check.json in two dimensions; as io::schema.
+  extern const char *const not_checked_in_space; ///< a sentence for the end of texts
+
+  /// The number under "schema" of check.json; as io::schema.
   constexpr unsigned int check_schema = 1;
 
   /// The same for programs, as lib/report/check.schema.json describes it.
-  std::string check_json(const Findings &found, const Requirements &required, const Input &input,
-                         int exit_code);
+  template <int dim>
+  std::string check_json(const Findings<dim> &found, const Requirements &required,
+                         const Input &input, int exit_code);
 } // namespace plumbline::check

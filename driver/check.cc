@@ -106,10 +106,9 @@ namespace plumbline::driver
     }
 
     /// Whether there are files.
-    bool writes_files(const scene::Scene &scene, const CheckOptions &options)
+    bool writes_files(const CheckOptions &options)
     {
-      return (!scene.domain.is_in_space() && !options.quiet && !options.json) ||
-             !options.output.empty();
+      return (!options.quiet && !options.json) || !options.output.empty();
     }
 
     io::OutputFolder::Owner owner_of(const scene::Scene &scene)
@@ -133,7 +132,7 @@ namespace plumbline::driver
               const std::function<void()> &write)
     {
       print(options, json, text);
-      if (!writes_files(scene, options))
+      if (!writes_files(options))
         return;
       const io::OutputFolder output(folder, owner_of(scene), base::Communicator::alone());
       write();
@@ -143,7 +142,6 @@ namespace plumbline::driver
 
     /// The levels of a series, from coarse to fine, and what an earlier command has left of them.
     check::Series find_levels(const check::LevelFiles &files, const CheckOptions &options,
-                              const check::Requirements &required,
                               std::optional<io::RecordJournal> &journal)
     {
       const base::Communicator ranks = base::Communicator::all();
@@ -172,14 +170,14 @@ namespace plumbline::driver
             (made.records.empty() || std::none_of(known.begin(), known.end(), is_known)))
           journal->append(made);
       };
-      return check::find_series(files, reference::methods(), required, control);
+      return check::find_series(files, reference::methods(), control);
     }
 
     int show_series(const scene::Scene &scene, const CheckOptions &options,
                     const check::Requirements &required, const fs::path &folder)
     {
       const base::Communicator ranks = base::Communicator::all();
-      const bool is_first = ranks.rank() == 0, has_files = writes_files(scene, options);
+      const bool is_first = ranks.rank() == 0, has_files = writes_files(options);
       const check::LevelFiles files = check::find_level_files(scene, options);
       if (!files.missing.empty() && is_first)
         std::cerr << "warning: levels without files are left out: there is no " << files.missing
@@ -191,7 +189,7 @@ namespace plumbline::driver
         output.emplace(folder, owner_of(scene), ranks);
       if (const std::string subject = check::subject_of(files); has_files && !subject.empty())
         journal.emplace(folder / "check.jsonl", subject);
-      const check::Series found = find_levels(files, options, required, journal);
+      const check::Series found = find_levels(files, options, journal);
       const bool is_written = is_first && !found.results.records.empty();
       if (is_written)
         print(
@@ -212,23 +210,11 @@ namespace plumbline::driver
       return check::complaints(found, required).empty() ? 0 : 1;
     }
 
-    int show_in_space(const scene::Scene &scene, const CheckOptions &options,
-                      const check::Requirements &required)
+    template <int dim>
+    int show_level(const check::Findings<dim> &found, const scene::Scene &scene,
+                   const CheckOptions &options, const check::Requirements &required,
+                   const fs::path &folder)
     {
-      const check::InSpace found = check::find_in_space(scene, options, required);
-      const std::string json = check::to_json(found, scene);
-      if (base::Communicator::all().rank() == 0)
-        show(
-            scene, options, options.output, [&] { return json; },
-            [&] { return check::text(found); },
-            [&] { base::write_file(fs::path(options.output) / "check.json", json); });
-      return found.complaints.empty() ? 0 : 1;
-    }
-
-    int show_level(const scene::Scene &scene, const CheckOptions &options,
-                   const check::Requirements &required, const fs::path &folder)
-    {
-      const check::Findings found = check::find(scene, options, reference::methods());
       const bool is_wrong = !check::complaints(found, required).empty();
       if (!is_wrong)
         for (const check::CaseCheck &one : found.cases)
@@ -269,7 +255,8 @@ namespace plumbline::driver
     if (check::is_series(options))
       return show_series(scene, options, required, folder);
     if (scene.domain.is_in_space())
-      return show_in_space(scene, options, required);
-    return show_level(scene, options, required, folder);
+      return show_level(check::find_in_space(scene, options), scene, options, required, folder);
+    return show_level(check::find(scene, options, reference::methods()), scene, options, required,
+                      folder);
   }
 } // namespace plumbline::driver

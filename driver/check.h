@@ -18,7 +18,7 @@ namespace plumbline::driver
   /// A series goes on where it was interrupted or killed, from check.jsonl.
   /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
   /// check.json; of a series of files levels.csv, a page for each level, and that of the study. In
-  /// space check.json and levels.csv alone, with an output folder.
+  /// space without maps, cells.vtu, matrix and solutions.
   /// @return exit code: 0, or 1: a requirement that does not hold, an outlier, a
   ///         cause found, a matrix that is not positive definite, or errors of a series that stall
   ///         where ac is required

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "geometry/cube_lattice.h"
 #include "geometry/lattice.h"
 
 #include <deal.II/base/point.h>
@@ -34,6 +35,10 @@ namespace plumbline::python
   /// Boxes minus other boxes, each ((x0, y0), (x1, y1)): shapes (2, 2) or (n, 2, 2).
   /// @throws InputError  another shape
   geometry::Domain to_domain(const py::object &boxes, const py::object &exclude);
+
+  /// One box, ((x0, y0, z0), (x1, y1, z1)): shape (2, 3) or (1, 2, 3).
+  /// @throws InputError  another shape
+  geometry::Cuboid to_cuboid(const py::object &given);
 
   /// @throws InputError  another shape than (n)
   void require_length(const py::array &array, std::size_t n, const std::string &name,

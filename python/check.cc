@@ -2,9 +2,12 @@
 #include "base/number_text.h"
 #include "bindings.h"
 #include "check/body.h"
+#include "check/in_space.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/check/bond_values.h"
+#include "meshfree/check/nodes_in_space.h"
 #include "meshfree/check/row_families.h"
+#include "meshfree/check/sizes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +25,25 @@ namespace plumbline::python
   {
     constexpr double rounding = std::numeric_limits<double>::epsilon();
 
-    meshfree::GivenNodes to_nodes(std::vector<Point<2>> places, const double *volumes)
+    template <int dim>
+    meshfree::GivenNodes<dim> to_nodes(std::vector<Point<dim>> places, const Doubles &volumes)
     {
-      meshfree::GivenNodes nodes;
+      require_length(volumes, places.size(), "volumes", "node");
+      meshfree::GivenNodes<dim> nodes;
       nodes.file = "nodes";
       double size = 0;
       for (std::size_t k = 0; k < places.size(); ++k)
       {
+        const double volume = volumes.data()[k];
         nodes.id.push_back(static_cast<std::int64_t>(k));
         nodes.line.push_back(k);
-        nodes.volume.push_back(volumes[k]);
-        if (!(volumes[k] > 0) || !std::isfinite(volumes[k]))
-          throw InputError("volumes[" + std::to_string(k) + "] = " + std::to_string(volumes[k]) +
-                           " is not positive; give the area of the node's cell");
-        size = std::max({size, std::abs(places[k][0]), std::abs(places[k][1])});
+        nodes.volume.push_back(volume);
+        if (!(volume > 0) || !std::isfinite(volume))
+          throw InputError("volumes[" + std::to_string(k) + "] = " + std::to_string(volume) +
+                           " is not positive; give the " + std::string(meshfree::measure<dim>()) +
+                           " of the node's cell");
+        for (unsigned int d = 0; d < dim; ++d)
+          size = std::max(size, std::abs(places[k][d]));
       }
       nodes.places = std::move(places);
       nodes.rounding = rounding * size;
@@ -43,15 +51,31 @@ namespace plumbline::python
       return nodes;
     }
 
-    /// @param points  empty: kernels are taken at the neighbours
-    std::vector<meshfree::GivenRow> to_rows(const Integers &i, const Integers &j, const Doubles &w,
-                                            const std::vector<Point<2>> &points)
+    /// Arrays of bonds.
+    struct GivenBonds
     {
-      const auto n = static_cast<std::size_t>(w.size());
-      std::vector<meshfree::GivenRow> rows(n);
+      const Integers &i, &j;
+      const Doubles &w;
+      const py::object &points; ///< None: kernels are taken at the neighbours
+    };
+
+    template <int dim>
+    std::vector<meshfree::GivenRow<dim>> to_rows(const GivenBonds &given)
+    {
+      const auto n = static_cast<std::size_t>(given.w.size());
+      require_length(given.w, n, "w", "bond");
+      require_length(given.i, n, "i", "bond");
+      require_length(given.j, n, "j", "bond");
+      std::vector<Point<dim>> points;
+      if (!given.points.is_none())
+        points = to_points<dim>(given.points.cast<Doubles>(), "points");
+      if (!given.points.is_none() && points.size() != n)
+        throw InputError("points has " + std::to_string(points.size()) + " rows for " +
+                         std::to_string(n) + " bonds; give one for each, relative to node i");
+      std::vector<meshfree::GivenRow<dim>> rows(n);
       for (std::size_t k = 0; k < n; ++k)
       {
-        rows[k] = {i.data()[k], j.data()[k], w.data()[k], {}, k};
+        rows[k] = {given.i.data()[k], given.j.data()[k], given.w.data()[k], {}, k};
         if (!std::isfinite(rows[k].weight))
           throw InputError("w[" + std::to_string(k) + "] = " + std::to_string(rows[k].weight) +
                            " is no weight; give finite numbers");
@@ -84,10 +108,11 @@ namespace plumbline::python
       return width / std::max(1., std::round(width / std::sqrt(width * height / std::max(1., n))));
     }
 
-    check::Findings find(meshfree::GivenNodes nodes, const std::vector<meshfree::GivenRow> &rows,
-                         const physics::Kernel<2> &kernel, const geometry::Domain &domain, double h,
-                         bool boundary_is_data, const std::vector<std::string> &meant,
-                         meshfree::BondValues values, check::GivenBody body)
+    check::Findings<2> find(meshfree::GivenNodes<2> nodes,
+                            const std::vector<meshfree::GivenRow<2>> &rows,
+                            const physics::Kernel<2> &kernel, const geometry::Domain &domain,
+                            double h, bool boundary_is_data, const std::vector<std::string> &meant,
+                            meshfree::BondValues values, check::GivenBody body)
     {
       check::take_into_box(body, domain, nodes);
       const bool is_free = body.is_free(), has_data = boundary_is_data && !body.is_periodic();
@@ -97,11 +122,11 @@ namespace plumbline::python
         body.parts = geometry::convex_parts(domain);
       check::add_images(mesh, level, nodes);
       meshfree::check_places(nodes, mesh, "h = " + base::to_text(h, 6));
-      meshfree::GivenCells cells = meshfree::given_cells(nodes, mesh, has_data && !is_free);
-      check::Findings found;
+      meshfree::GivenCells<2> cells = meshfree::given_cells(nodes, mesh, has_data && !is_free);
+      check::Findings<2> found;
       found.level = {level, "given", meshfree::node_spacing(nodes, mesh)};
       found.n_on_boundary = boundary_is_data || is_free ? 0 : cells.n_on_boundary;
-      meshfree::GivenWeights weights;
+      meshfree::GivenWeights<2> weights;
       weights.cells = std::make_shared<const geometry::NodeCells<2>>(std::move(cells.cells));
       weights.given = meshfree::families_of_rows(rows, nodes, *weights.cells, {"bonds", "index"});
       weights.given.weight_rounding = rounding;
@@ -112,14 +137,21 @@ namespace plumbline::python
       return found;
     }
 
-    /// Words of the command, whose lines are indices here.
+    /// Words of the command, whose lines are indices here, and whose options are arguments.
     std::string in_arrays(std::string text)
     {
-      for (std::size_t at = 0; (at = text.find("(line ", at)) != std::string::npos; at += 7)
-        text.replace(at, 6, "(index ");
-      const std::string of_scenes = check::where_lengths_are_given;
-      if (const std::size_t at = text.find(of_scenes); at != std::string::npos)
-        text.erase(at, of_scenes.size());
+      const std::vector<std::pair<std::string, std::string>> words = {
+          {"(line ", "(index "},
+          {check::where_lengths_are_given, ""},
+          {"--bonds-are stiffness", "bonds_are=\"stiffness\""},
+          {"though Methods/names has that rule and not FA",
+           "though rule names that one and not FA"},
+          {"name the rule that is meant in Methods/names", "give rule, the one that is meant"},
+          {"write Methods/nodes = vertices", "give boundary_is_data=True"}};
+      for (const auto &[of_command, of_arrays] : words)
+        for (std::size_t at = 0; (at = text.find(of_command, at)) != std::string::npos;
+             at += of_arrays.size())
+          text.replace(at, of_command.size(), of_arrays);
       return text;
     }
 
@@ -131,19 +163,21 @@ namespace plumbline::python
       return result;
     }
 
-    py::dict to_dict(const meshfree::Worst &worst, const check::Findings &found)
+    template <int dim>
+    py::dict to_dict(const meshfree::Worst &worst, const check::Findings<dim> &found)
     {
       return py::dict("value"_a = worst.value, "node"_a = found.ids[worst.node]);
     }
 
-    py::list outliers(const check::Findings &found)
+    template <int dim>
+    py::list outliers(const check::Findings<dim> &found)
     {
       py::list result;
-      for (const Outlier &o : found.outliers)
+      for (const Outlier<dim> &o : found.outliers)
       {
-        const bool has_row = o.bond != Outlier::none;
+        const bool has_row = o.bond != Outlier<dim>::none;
         result.append(py::dict("node"_a = found.ids[o.node],
-                               "neighbour"_a = o.neighbour == Outlier::none
+                               "neighbour"_a = o.neighbour == Outlier<dim>::none
                                                    ? py::object(py::none())
                                                    : py::cast(found.ids[o.neighbour]),
                                "index"_a = has_row ? py::cast(found.given.lines[o.node][o.bond])
@@ -154,17 +188,19 @@ namespace plumbline::python
       return result;
     }
 
-    py::list causes(const check::Findings &found)
+    template <int dim>
+    py::list causes(const check::Findings<dim> &found)
     {
       py::list result;
       for (const meshfree::Cause &cause : found.causes)
-        result.append(py::dict("name"_a = cause.name, "text"_a = cause.text,
+        result.append(py::dict("name"_a = cause.name, "text"_a = in_arrays(cause.text),
                                "factor"_a = cause.factor, "defect_before"_a = cause.before,
                                "defect_after"_a = cause.after));
       return result;
     }
 
-    py::dict moments(const check::Findings &found)
+    template <int dim>
+    py::dict moments(const check::Findings<dim> &found)
     {
       py::list degrees;
       for (const meshfree::MomentDefect &defect : found.moments.defects)
@@ -179,7 +215,8 @@ namespace plumbline::python
                       "second"_a = to_dict(found.moments.second, found));
     }
 
-    py::dict to_dict(const check::Findings &found, const check::Requirements &required)
+    template <int dim>
+    py::dict to_dict(const check::Findings<dim> &found, const check::Requirements &required)
     {
       const std::vector<std::string> wrong = check::complaints(found, required);
       py::dict result("passed"_a = wrong.empty(), "complaints"_a = in_arrays(wrong),
@@ -197,18 +234,26 @@ namespace plumbline::python
       result["symmetry"] = py::dict("asymmetry"_a = found.symmetry.asymmetry,
                                     "imbalance"_a = found.symmetry.imbalance,
                                     "n_unpaired"_a = found.symmetry.n_unpaired);
-      result["matrix"] = py::dict("n_negative_eigenvalues"_a = found.matrix.n_negative_eigenvalues,
-                                  "smallest_eigenvalue"_a = found.matrix.smallest_eigenvalue,
-                                  "n_rows_with_positive_entries"_a = found.matrix.n_positive,
-                                  "n_rows_not_dominant"_a = found.matrix.n_weak,
-                                  "failure"_a = found.matrix_failure);
+      result["matrix"] = py::none();
+      if (found.has_matrix)
+        result["matrix"] = py::dict(
+            "n_negative_eigenvalues"_a = found.matrix.n_negative_eigenvalues,
+            "smallest_eigenvalue"_a = found.matrix.smallest_eigenvalue,
+            "n_rows_with_positive_entries"_a = found.matrix.n_positive,
+            "n_rows_not_dominant"_a = found.matrix.n_weak, "failure"_a = found.matrix_failure);
       result["volume_factor"] = found.volume_factor;
       result["volume_defect"] = found.volume_defect;
+      py::dict elastic;
+      for (const meshfree::ElasticRange &one : found.elastic)
+        elastic[one.name.c_str()] = py::make_tuple(one.least, one.median, one.largest);
+      result["elastic"] = elastic;
+      result["spacing"] = found.level.node_size;
       result["n_free"] = found.body ? found.body->n_families : found.cells->n_free;
       result["n_ignored_bonds"] = found.given.n_ignored;
       result["body"] = py::none();
-      if (found.body)
-        result["body"] = py::module_::import("json").attr("loads")(check::body_json(found));
+      if constexpr (dim == 2)
+        if (found.body)
+          result["body"] = py::module_::import("json").attr("loads")(check::body_json(found));
       return result;
     }
 
@@ -225,29 +270,52 @@ namespace plumbline::python
         body.cracks.push_back(to_points(cracks[c], "cracks[" + std::to_string(c) + "]"));
       const check::Requirements required = check::parse_requirements(require);
       const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
-      std::vector<Point<2>> places = to_points(nodes, "nodes");
-      require_length(volumes, places.size(), "volumes", "node");
-      const auto n = static_cast<std::size_t>(w.size());
-      require_length(w, n, "w", "bond");
-      require_length(i, n, "i", "bond");
-      require_length(j, n, "j", "bond");
-      std::vector<Point<2>> kernel_points;
-      if (!points.is_none())
-        kernel_points = to_points(points.cast<Doubles>(), "points");
-      if (!points.is_none() && kernel_points.size() != n)
-        throw InputError("points has " + std::to_string(kernel_points.size()) + " rows for " +
-                         std::to_string(n) + " bonds; give one for each, relative to node i");
+      meshfree::GivenNodes<2> given = to_nodes<2>(to_points(nodes, "nodes"), volumes);
+      const auto rows = to_rows<2>({i, j, w, points});
       const geometry::Domain domain = to_domain(boxes, exclude);
       if (domain.include.empty())
         throw InputError("boxes is empty; give the domain whose nodes are free, e.g. ((0, 0), (1, "
                          "1))");
-      check::Findings found;
+      check::Findings<2> found;
       {
         const py::gil_scoped_release others;
-        meshfree::GivenNodes given = to_nodes(std::move(places), volumes.data());
         const double size = h > 0 ? h : usual_h(domain, given.places, body.is_periodic());
-        found = find(std::move(given), to_rows(i, j, w, kernel_points), kernel, domain, size,
-                     boundary_is_data, meant, values, std::move(body));
+        found = find(std::move(given), rows, kernel, domain, size, boundary_is_data, meant, values,
+                     std::move(body));
+      }
+      return to_dict(found, required);
+    }
+
+    py::dict check_in_space(const Doubles &nodes, const Doubles &volumes, const Integers &i,
+                            const Integers &j, const Doubles &w, const physics::Kernel<3> &kernel,
+                            const py::object &boxes, const py::object &points, double h,
+                            const std::vector<std::string> &meant,
+                            const std::vector<std::string> &require, const std::string &bonds_are,
+                            const std::string &boundary)
+    {
+      const geometry::Cuboid omega = to_cuboid(boxes);
+      const check::Requirements required = check::parse_requirements(require);
+      const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
+      const scene::Boundary known = check::to_boundary(boundary, "boundary");
+      if (known == scene::Boundary::free)
+        throw InputError("boundary = 'free' is available in plumbline.check, in two dimensions, "
+                         "only; give 'constrained' or 'periodic'");
+      const bool is_periodic = known == scene::Boundary::periodic;
+      meshfree::GivenNodes<3> given = to_nodes<3>(to_points<3>(nodes, "nodes"), volumes);
+      const auto rows = to_rows<3>({i, j, w, points});
+      check::Findings<3> found;
+      {
+        const py::gil_scoped_release others;
+        if (is_periodic)
+          given.box = {omega.lower, omega.upper};
+        const double spacing = meshfree::node_spacing(given, omega);
+        found.level = {{h > 0 ? h : spacing, kernel.horizon()}, "given", spacing};
+        meshfree::GivenWeights<3> weights =
+            check::with_cells(std::move(given), omega, is_periodic, found.level.level);
+        weights.given =
+            meshfree::families_of_rows(rows, weights.nodes, *weights.cells, {"bonds", "index"});
+        weights.given.weight_rounding = rounding;
+        check::find_defects(values, std::move(weights), kernel, meant, found);
       }
       return to_dict(found, required);
     }
@@ -258,5 +326,8 @@ namespace plumbline::python
     module.def("check_arrays", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
                "boxes"_a, "exclude"_a, "points"_a, "h"_a, "boundary_is_data"_a, "meant"_a,
                "require"_a, "bonds_are"_a, "boundary"_a, "cracks"_a);
+    module.def("check_in_space", check_in_space, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a,
+               "kernel"_a, "boxes"_a, "points"_a, "h"_a, "rule"_a, "require"_a, "bonds_are"_a,
+               "boundary"_a);
   }
 } // namespace plumbline::python

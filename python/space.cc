@@ -2,12 +2,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "callables.h"
-#include "check/body.h"
 #include "geometry/mesh_input.h"
 #include "geometry/node_cells_in_space.h"
 #include "geometry/tetrahedral_check.h"
 #include "geometry/tetrahedral_domain.h"
-#include "meshfree/check/bond_values.h"
 #include "method/method.h"
 #include "problem/in_space.h"
 #include "problem/inside.h"
@@ -15,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 // Three dimensions: rules on lattices of cubes, problems on boxes, the check of weights.
@@ -50,14 +47,6 @@ namespace plumbline::python
                              "; give the lower corner first");
       }
       return boxes;
-    }
-
-    geometry::Cuboid to_cuboid(const py::object &given)
-    {
-      const auto boxes = to_cuboids(given, "box");
-      if (boxes.size() != 1)
-        throw InputError("box holds " + std::to_string(boxes.size()) + " boxes; give one");
-      return boxes.front();
     }
 
     struct SolvedInSpace
@@ -225,98 +214,6 @@ namespace plumbline::python
       return points;
     }
 
-    /// Given as arrays; ids and lines are indices.
-    meshfree::WeightsInSpace to_given(const Doubles &nodes, const Doubles &volumes,
-                                      const Integers &i, const Integers &j, const Doubles &w,
-                                      const py::object &points, const geometry::Cuboid &box,
-                                      bool is_periodic)
-    {
-      meshfree::WeightsInSpace given;
-      if (is_periodic)
-        given.box = {box.lower, box.upper};
-      given.places = to_points<3>(nodes, "nodes");
-      require_length(volumes, given.places.size(), "volumes", "node");
-      for (std::size_t k = 0; k < given.places.size(); ++k)
-      {
-        given.id.push_back(static_cast<std::int64_t>(k));
-        given.volumes.push_back(volumes.data()[k]);
-        if (!(volumes.data()[k] > 0) || !std::isfinite(volumes.data()[k]))
-          throw InputError("volumes[" + std::to_string(k) +
-                           "] = " + std::to_string(volumes.data()[k]) +
-                           " is not positive; give the volume of the node's cell");
-      }
-      const auto n = static_cast<std::size_t>(w.size());
-      require_length(w, n, "w", "bond");
-      require_length(i, n, "i", "bond");
-      require_length(j, n, "j", "bond");
-      std::vector<Point<3>> at;
-      if (!points.is_none())
-      {
-        at = to_points<3>(points.cast<Doubles>(), "points");
-        if (at.size() != n)
-          throw InputError("points has " + std::to_string(at.size()) + " rows for " +
-                           std::to_string(n) + " bonds; give one for each, relative to node i");
-      }
-      std::vector<meshfree::BondInSpace> bonds(n);
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        for (const auto &[name, index] : {std::pair("i", i.data()[k]), std::pair("j", j.data()[k])})
-          if (index < 0 || index >= static_cast<std::int64_t>(given.places.size()))
-            throw InputError(std::string(name) + "[" + std::to_string(k) +
-                             "] = " + std::to_string(index) + " is no node; there are " +
-                             std::to_string(given.places.size()) + ", counted from 0");
-        if (!std::isfinite(w.data()[k]))
-          throw InputError("w[" + std::to_string(k) + "] is no weight; give finite numbers");
-        bonds[k].i = static_cast<std::size_t>(i.data()[k]);
-        bonds[k].j = static_cast<std::size_t>(j.data()[k]);
-        bonds[k].weight = w.data()[k];
-        if (!at.empty())
-          bonds[k].kernel_point = at[k];
-        bonds[k].line = k;
-      }
-      const py::gil_scoped_release others;
-      set_families(given, bonds, box, "nodes", "bonds");
-      given.rounding = std::numeric_limits<double>::epsilon();
-      return given;
-    }
-
-    py::dict check(const Doubles &nodes, const Doubles &volumes, const Integers &i,
-                   const Integers &j, const Doubles &w, const Kernel<3> &kernel,
-                   const py::object &box, const py::object &points,
-                   const std::vector<std::string> &meant, const std::string &bonds_are,
-                   const std::string &boundary)
-    {
-      const geometry::Cuboid omega = to_cuboid(box);
-      const auto values = meshfree::to_bond_values(bonds_are, "bonds_are");
-      const scene::Boundary known = check::to_boundary(boundary, "boundary");
-      if (known == scene::Boundary::free)
-        throw InputError("boundary = 'free' is for two dimensions; choose one of 'constrained' and "
-                         "'periodic'");
-      meshfree::WeightsInSpace given =
-          to_given(nodes, volumes, i, j, w, points, omega, known == scene::Boundary::periodic);
-      meshfree::FindingsInSpace found;
-      {
-        const py::gil_scoped_release others;
-        if (given.box)
-          given.box->check_sides(kernel.horizon(), node_spacing(given, omega));
-        meshfree::to_weights(values, kernel, given);
-        found = meshfree::find_defects(given, kernel, omega, meant);
-      }
-      py::dict elastic;
-      for (const meshfree::ElasticRange &one : found.elastic)
-        elastic[one.name.c_str()] = py::make_tuple(one.least, one.median, one.largest);
-      const auto worst = [&](const meshfree::Worst &one)
-      { return py::make_tuple(one.value, one.node); };
-      return py::dict("is_ac"_a = found.second.value <= meshfree::MomentCheck::tolerance,
-                      "rule"_a = found.rule, "rule_factor"_a = found.rule_factor,
-                      "causes"_a = found.causes, "outliers"_a = found.outliers,
-                      "first_moments"_a = worst(found.first),
-                      "second_moments"_a = worst(found.second), "median_moments"_a = found.typical,
-                      "imbalance"_a = found.imbalance, "n_unpaired"_a = found.n_unpaired,
-                      "n_bonds"_a = found.n_bonds, "n_negative"_a = found.n_negative,
-                      "spacing"_a = found.spacing, "elastic"_a = elastic);
-    }
-
     void add_solution(py::module_ &module)
     {
       py::class_<SolvedInSpace>(module, "SpaceSolution",
@@ -372,6 +269,14 @@ namespace plumbline::python
     }
   } // namespace
 
+  geometry::Cuboid to_cuboid(const py::object &given)
+  {
+    const auto boxes = to_cuboids(given, "boxes");
+    if (boxes.size() != 1)
+      throw InputError("boxes holds " + std::to_string(boxes.size()) + " boxes; give one");
+    return boxes.front();
+  }
+
   void add_space(py::module_ &module)
   {
     py::class_<ProblemInSpace, std::shared_ptr<ProblemInSpace>>(
@@ -419,7 +324,5 @@ lame        (lambda, mu) of the linear peridynamic solid [force/length^2]; u is 
         "problem"_a.none(false), "method"_a);
     module.def("node_weights_in_space", node_weights, "rule"_a, "kernel"_a, "nodes"_a, "volumes"_a,
                "box"_a, "exclude"_a, "h"_a);
-    module.def("check_in_space", check, "nodes"_a, "volumes"_a, "i"_a, "j"_a, "w"_a, "kernel"_a,
-               "box"_a, "points"_a, "meant"_a, "bonds_are"_a, "boundary"_a);
   }
 } // namespace plumbline::python

@@ -45,7 +45,7 @@ namespace plumbline::meshfree
 
     /// Families of whole balls, and if there are such, only those whose neighbours have whole balls
     /// as well: no surface correction changes their weights.
-    std::vector<char> bulk_of(const GivenFamilies &given, const View &seen)
+    std::vector<char> bulk_of(const GivenFamilies<2> &given, const View &seen)
     {
       std::vector<char> is_whole, is_bulk;
       for (std::size_t i = 0; i < given.families.size(); ++i)
@@ -159,7 +159,7 @@ namespace plumbline::meshfree
     }
 
     /// Of the families that are cut in one way.
-    CutFamilies families_of(FamilyCut cut, const GivenWeights &given, const View &seen,
+    CutFamilies families_of(FamilyCut cut, const GivenWeights<2> &given, const View &seen,
                             const FoundCorrection &correction, const geometry::VisibleBody &body,
                             const Kernel<2> &kernel)
     {
@@ -204,8 +204,8 @@ namespace plumbline::meshfree
 
     /// Pairs of nodes that cross a crack and have a bond, and those that have none though all such
     /// pairs have in the bulk.
-    void check_pairs(const GivenWeights &given, const View &seen, const geometry::VisibleBody &body,
-                     const BulkBonds &bulk, BodyCheck &check)
+    void check_pairs(const GivenWeights<2> &given, const View &seen,
+                     const geometry::VisibleBody &body, const BulkBonds &bulk, BodyCheck &check)
     {
       const geometry::NodeCells<2> &cells = *given.cells;
       std::vector<geometry::Box> boxes;
@@ -252,7 +252,7 @@ namespace plumbline::meshfree
     }
 
     /// Bonds of cut families whose weights are not those of the bulk, the largest difference first.
-    void check_weights_of_cut(const GivenWeights &given, const View &seen,
+    void check_weights_of_cut(const GivenWeights<2> &given, const View &seen,
                               const geometry::VisibleBody &body, const BulkBonds &bulk,
                               BodyCheck &check)
     {
@@ -281,10 +281,11 @@ namespace plumbline::meshfree
     }
 
     /// The same weights with nodes in another order, the first of them free; a correction undone.
-    GivenWeights reordered_weights(const GivenWeights &given, const std::vector<std::size_t> &order,
-                                   std::size_t n_free, const FoundCorrection &correction)
+    GivenWeights<2> reordered_weights(const GivenWeights<2> &given,
+                                      const std::vector<std::size_t> &order, std::size_t n_free,
+                                      const FoundCorrection &correction)
     {
-      GivenWeights result;
+      GivenWeights<2> result;
       result.nodes = given.nodes;
       result.cells =
           std::make_shared<const geometry::NodeCells<2>>(reordered(*given.cells, order, n_free));
@@ -294,12 +295,12 @@ namespace plumbline::meshfree
         place[order[k]] = static_cast<unsigned int>(k);
         result.volumes.push_back(given.volumes[order[k]]);
       }
-      const GivenFamilies &old = given.given;
+      const GivenFamilies<2> &old = given.given;
       result.given.n_ignored = old.n_ignored;
       result.given.is_half_list = old.is_half_list;
       result.given.weight_rounding = old.weight_rounding;
       result.given.notes = old.notes;
-      for (CollarBond one : old.of_collar)
+      for (CollarBond<2> one : old.of_collar)
       {
         one.node = place[one.node];
         one.neighbour = place[one.neighbour];
@@ -310,7 +311,7 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < old.families.size(); ++i)
       {
         const Family<2> &family = old.families[i];
-        std::vector<CollarBond> bonds;
+        std::vector<CollarBond<2>> bonds;
         for (std::size_t k = 0; k < family.bonds.size(); ++k)
         {
           bonds.push_back(
@@ -318,9 +319,9 @@ namespace plumbline::meshfree
           bonds.back().bond.weight /= correction.factor(i, family.neighbours[k]);
         }
         std::sort(bonds.begin(), bonds.end(),
-                  [](const CollarBond &a, const CollarBond &b)
+                  [](const CollarBond<2> &a, const CollarBond<2> &b)
                   { return a.neighbour < b.neighbour; });
-        for (const CollarBond &one : bonds)
+        for (const CollarBond<2> &one : bonds)
           if (one.node >= n_free)
             result.given.of_collar.push_back(one);
           else
@@ -341,7 +342,7 @@ namespace plumbline::meshfree
     return static_cast<double>(different.size()) > share * static_cast<double>(n_compared);
   }
 
-  BodyCheck check_body(GivenWeights &given, std::vector<double> &uncut_areas,
+  BodyCheck check_body(GivenWeights<2> &given, std::vector<double> &uncut_areas,
                        const geometry::VisibleBody &body, const Kernel<2> &kernel, double spacing)
   {
     const View seen = view_of(body, *given.cells, kernel.horizon());

@@ -56,6 +56,6 @@ namespace plumbline::meshfree
   /// Limits: bonds are compared with those of families whose neighbours have whole balls, too; if
   /// there are none, of all whole balls. A bond missing in a body that is not convex is named only
   /// if it lies in the body.
-  BodyCheck check_body(GivenWeights &given, std::vector<double> &uncut_areas,
+  BodyCheck check_body(GivenWeights<2> &given, std::vector<double> &uncut_areas,
                        const geometry::VisibleBody &body, const Kernel<2> &kernel, double spacing);
 } // namespace plumbline::meshfree

@@ -23,14 +23,15 @@ namespace plumbline::meshfree
   };
 
   /// ∫ |C| |ξ|^degree over the ball, where |C| is the radial factor's.
-  double kernel_size(const Kernel<2> &kernel, int degree);
+  template <int dim>
+  double kernel_size(const Kernel<dim> &kernel, int degree);
 
   /// The moments of families, which decide what their operator tends to.
   struct MomentCheck
   {
     static constexpr double tolerance = 1e-8; ///< for moments to count as exact
 
-    std::vector<MomentDefect> defects; ///< of degree 1 to 4
+    std::vector<MomentDefect> defects; ///< of degree 1 to 4, or 2 where no more is asked for
     /// Polynomials up to this degree are mapped as by the nonlocal operator.
     int exact_degree = 0;
     /// Mean over the families of the ratio of Σ w tr C |ξ|² to its exact value.
@@ -47,8 +48,11 @@ namespace plumbline::meshfree
     double typical() const;
   };
 
+  /// @param highest  degree of the moments, at least 2
   /// @throws InputError  the kernel's second moment is 0: there is no local limit
-  MomentCheck check_moments(const std::vector<Family<2>> &families, const Kernel<2> &kernel);
+  template <int dim>
+  MomentCheck check_moments(const std::vector<Family<dim>> &families, const Kernel<dim> &kernel,
+                            int highest = 4);
 
   struct WeightCheck
   {
@@ -59,7 +63,8 @@ namespace plumbline::meshfree
   };
 
   /// @param volumes  of the free nodes, shape (n_families)
-  WeightCheck check_weights(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
+  template <int dim>
+  WeightCheck check_weights(const std::vector<Family<dim>> &families, const Kernel<dim> &kernel,
                             const std::vector<double> &volumes);
 
   /// Pairs of free nodes seen from both ends.
@@ -74,6 +79,7 @@ namespace plumbline::meshfree
   };
 
   /// @param volumes  of the free nodes, shape (n_families)
-  SymmetryCheck check_symmetry(const std::vector<Family<2>> &families, const Kernel<2> &kernel,
+  template <int dim>
+  SymmetryCheck check_symmetry(const std::vector<Family<dim>> &families, const Kernel<dim> &kernel,
                                const std::vector<double> &volumes);
 } // namespace plumbline::meshfree

@@ -9,6 +9,7 @@
 #include "meshfree/rules/families.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -20,11 +21,36 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    std::string to_text(const Point<2> &x)
+    template <int dim>
+    std::string to_text(const Point<dim> &x)
     {
       std::ostringstream text;
-      text << '(' << x[0] << ", " << x[1] << ')';
+      text << '(' << x[0];
+      for (unsigned int d = 1; d < dim; ++d)
+        text << ", " << x[d];
+      text << ')';
       return text.str();
+    }
+
+    const std::array<std::string, 3> axes = {"x", "y", "z"};
+
+    /// Numbers of the columns x, y and, in space, z.
+    template <int dim>
+    Point<dim> place(base::Csv &csv, const std::string &prefix = "")
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = csv.number(prefix + axes[d]);
+      return x;
+    }
+
+    template <int dim>
+    std::vector<std::string> columns_of_nodes()
+    {
+      std::vector<std::string> result = {"id", "x", "y", "volume"};
+      if (dim == 3)
+        result.insert(result.begin() + 3, "z");
+      return result;
     }
 
     /// Rounding of a double, as of coordinates far from the origin.
@@ -52,32 +78,36 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  GivenNodes read_given_nodes(const std::string &file)
+  template <int dim>
+  GivenNodes<dim> read_given_nodes(const std::string &file)
   {
-    base::Csv csv(file, {"id", "x", "y", "volume"}, {"id"});
+    base::Csv csv(file, columns_of_nodes<dim>(), {"id"});
     const bool is_numbered = csv.has("id");
     if (!is_numbered && !csv.has("block_id"))
       csv.fail_without("id");
-    GivenNodes nodes;
+    GivenNodes<dim> nodes;
     std::optional<double> z;
     nodes.file = file;
     std::unordered_map<std::int64_t, std::size_t> line_of_id;
-    std::map<std::pair<double, double>, std::size_t> line_of_place;
+    std::map<std::array<double, dim>, std::size_t> line_of_place;
     while (csv.next())
     {
       const std::int64_t id =
           is_numbered ? csv.integer("id") : static_cast<std::int64_t>(nodes.size() + 1);
-      check_plane(csv, z);
-      const Point<2> x(csv.number("x"), csv.number("y"));
+      if (dim == 2)
+        check_plane(csv, z);
+      const Point<dim> x = place<dim>(csv);
+      std::array<double, dim> key{};
+      for (unsigned int d = 0; d < dim; ++d)
+        key[d] = x[d];
       const double volume = csv.number("volume");
       if (!(volume > 0))
         csv.fail("the volume " + std::to_string(volume) + " of node " + std::to_string(id) +
-                 " is not positive; give the area of its cell");
+                 " is not positive; give the " + (dim == 2 ? "area" : "volume") + " of its cell");
       if (const auto [other, is_new] = line_of_id.emplace(id, csv.line()); !is_new)
         csv.fail("id " + std::to_string(id) + " is that of line " + std::to_string(other->second) +
                  " already; give every node an id of its own");
-      if (const auto [other, is_new] = line_of_place.emplace(std::pair(x[0], x[1]), csv.line());
-          !is_new)
+      if (const auto [other, is_new] = line_of_place.emplace(key, csv.line()); !is_new)
         csv.fail("node " + std::to_string(id) + " lies at " + to_text(x) + ", where that of line " +
                  std::to_string(other->second) + " is; take one of them out");
       nodes.id.push_back(id);
@@ -85,10 +115,9 @@ namespace plumbline::meshfree
       nodes.volume.push_back(volume);
       nodes.line.push_back(csv.line());
     }
-    for (const unsigned int d : {0U, 1U})
-      for (const Point<2> &x : nodes.places)
-        nodes.rounding =
-            std::max(nodes.rounding, largest_rounding(csv.digits(d == 0 ? "x" : "y"), x[d]));
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const Point<dim> &x : nodes.places)
+        nodes.rounding = std::max(nodes.rounding, largest_rounding(csv.digits(axes[d]), x[d]));
     for (const double volume : nodes.volume)
       nodes.volume_rounding =
           std::max(nodes.volume_rounding, csv.digits("volume").rounding(volume) / volume);
@@ -101,7 +130,7 @@ namespace plumbline::meshfree
     return nodes;
   }
 
-  std::vector<std::size_t> nodes_inside(const GivenNodes &nodes, const geometry::Mesh &mesh)
+  std::vector<std::size_t> nodes_inside(const GivenNodes<2> &nodes, const geometry::Mesh &mesh)
   {
     const geometry::CellLocator cells(mesh);
     std::vector<std::size_t> result;
@@ -114,7 +143,8 @@ namespace plumbline::meshfree
     return result;
   }
 
-  void check_places(const GivenNodes &nodes, const geometry::Mesh &mesh, const std::string &level)
+  void check_places(const GivenNodes<2> &nodes, const geometry::Mesh &mesh,
+                    const std::string &level)
   {
     const geometry::CellLocator cells(mesh);
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -138,7 +168,7 @@ namespace plumbline::meshfree
   namespace
   {
     /// Whether a place lies on the boundary of Ω, to rounding of files.
-    std::vector<bool> on_boundary(const GivenNodes &nodes, const geometry::Mesh &mesh)
+    std::vector<bool> on_boundary(const GivenNodes<2> &nodes, const geometry::Mesh &mesh)
     {
       const double tolerance = 1e-6 * mesh.longest_side();
       const geometry::CellLocator locator(mesh);
@@ -155,10 +185,11 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &cells,
-                                   const std::vector<std::size_t> &order, std::size_t n_free)
+  template <int dim>
+  geometry::NodeCells<dim> reordered(const geometry::NodeCells<dim> &cells,
+                                     const std::vector<std::size_t> &order, std::size_t n_free)
   {
-    geometry::NodeCells<2> result;
+    geometry::NodeCells<dim> result;
     result.n_free = n_free;
     result.first_piece = {0};
     for (const std::size_t c : order)
@@ -174,7 +205,7 @@ namespace plumbline::meshfree
     return result;
   }
 
-  double node_spacing(const GivenNodes &nodes, const geometry::Mesh &mesh)
+  double node_spacing(const GivenNodes<2> &nodes, const geometry::Mesh &mesh)
   {
     const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
     double n = 0, area = 0;
@@ -189,14 +220,15 @@ namespace plumbline::meshfree
     return std::sqrt(area / n);
   }
 
-  GivenCells given_cells(const GivenNodes &nodes, const geometry::Mesh &mesh, bool boundary_is_data)
+  GivenCells<2> given_cells(const GivenNodes<2> &nodes, const geometry::Mesh &mesh,
+                            bool boundary_is_data)
   {
     const std::vector<bool> is_on_boundary = on_boundary(nodes, mesh);
     geometry::Mesh everywhere = mesh;
     for (geometry::MeshCell &cell : everywhere.cells)
       cell.is_inside = true;
     const geometry::NodeCells<2> uncut = geometry::voronoi_cells(nodes.places, everywhere);
-    GivenCells result;
+    GivenCells<2> result;
     if (nodes.box)
     {
       result.cells = uncut;
@@ -241,10 +273,12 @@ namespace plumbline::meshfree
   namespace
   {
     /// Of the weights by their digits, relative to most of them.
-    double weight_rounding(const std::vector<GivenRow> &rows, const base::PrintedDigits &digits)
+    template <int dim>
+    double weight_rounding(const std::vector<GivenRow<dim>> &rows,
+                           const base::PrintedDigits &digits)
     {
       std::vector<double> sizes;
-      for (const GivenRow &row : rows)
+      for (const GivenRow<dim> &row : rows)
         if (row.weight != 0)
           sizes.push_back(std::abs(row.weight));
       if (sizes.empty())
@@ -254,34 +288,49 @@ namespace plumbline::meshfree
       return digits.rounding(*middle) / *middle;
     }
 
-    std::vector<GivenRow> read_rows(base::Csv &csv)
+    template <int dim>
+    std::vector<GivenRow<dim>> read_rows(base::Csv &csv)
     {
-      std::vector<GivenRow> rows;
+      std::vector<GivenRow<dim>> rows;
       while (csv.next())
       {
-        GivenRow row{csv.integer("i"), csv.integer("j"), csv.number("weight"), {}, csv.line()};
+        GivenRow<dim> row{csv.integer("i"), csv.integer("j"), csv.number("weight"), {}, csv.line()};
         if (csv.has("qx") && !(csv.is_empty("qx") && csv.is_empty("qy")))
-          row.kernel_point = Point<2>(csv.number("qx"), csv.number("qy"));
+          row.kernel_point = place<dim>(csv, "q");
         if (row.kernel_point && row.kernel_point->square() == 0)
-          csv.fail(
-              "the kernel point (qx, qy) is 0, the place of node i itself, where kernels may be "
-              "infinite; give a point of the neighbour's cell, relative to node i");
+          csv.fail(std::string("the kernel point ") + (dim == 2 ? "(qx, qy)" : "(qx, qy, qz)") +
+                   " is 0, the place of node i itself, where kernels may be "
+                   "infinite; give a point of the neighbour's cell, relative to node i");
         rows.push_back(row);
       }
       return rows;
     }
   } // namespace
 
-  GivenFamilies read_given_families(const std::string &file, const GivenNodes &nodes,
-                                    const geometry::NodeCells<2> &cells)
+  template <int dim>
+  GivenFamilies<dim> read_given_families(const std::string &file, const GivenNodes<dim> &nodes,
+                                         const geometry::NodeCells<dim> &cells)
   {
     base::Csv csv(file, {"i", "j", "weight"});
     if (csv.has("qx") != csv.has("qy"))
       csv.fail("one of the columns qx and qy is missing; give both or none");
-    const std::vector<GivenRow> given = read_rows(csv);
-    GivenFamilies result = families_of_rows(given, nodes, cells, {file, "line"});
-    result.weight_rounding = weight_rounding(given, csv.digits("weight"));
+    if (dim == 3 && csv.has("qx") != csv.has("qz"))
+      csv.fail("one of the columns qx, qy and qz is missing; give all or none");
+    const std::vector<GivenRow<dim>> given = read_rows<dim>(csv);
+    GivenFamilies<dim> result = families_of_rows(given, nodes, cells, RowSource{file, "line"});
+    result.weight_rounding = weight_rounding<dim>(given, csv.digits("weight"));
     result.notes = csv.notes();
     return result;
   }
+
+  template GivenNodes<2> read_given_nodes(const std::string &);
+  template GivenNodes<3> read_given_nodes(const std::string &);
+  template geometry::NodeCells<2> reordered(const geometry::NodeCells<2> &,
+                                            const std::vector<std::size_t> &, std::size_t);
+  template geometry::NodeCells<3> reordered(const geometry::NodeCells<3> &,
+                                            const std::vector<std::size_t> &, std::size_t);
+  template GivenFamilies<2> read_given_families(const std::string &, const GivenNodes<2> &,
+                                                const geometry::NodeCells<2> &);
+  template GivenFamilies<3> read_given_families(const std::string &, const GivenNodes<3> &,
+                                                const geometry::NodeCells<3> &);
 } // namespace plumbline::meshfree

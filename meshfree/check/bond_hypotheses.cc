@@ -2,8 +2,10 @@
 
 #include "base/number_text.h"
 #include "meshfree/check/bond_check.h"
+#include "meshfree/check/bond_pairs.h"
 #include "meshfree/check/bond_profile.h"
 #include "meshfree/check/hypothesis.h"
+#include "meshfree/check/sizes.h"
 #include "meshfree/check/volume_check.h"
 
 #include <algorithm>
@@ -16,9 +18,11 @@ namespace plumbline::meshfree
   {
     constexpr double exact = file_tolerance;
 
-    constexpr std::array<Hypothesis, 10> hypotheses = {
-        all_zero,          half_list, kernel_in_weights,  own_volume,  kernel_points, whole_ball,
-        factor_of_weights, drift,     missing_at_horizon, missing_ramp};
+    template <int dim>
+    constexpr std::array<Hypothesis<dim>, 11> hypotheses = {
+        all_zero<dim>,      half_list<dim>,          kernel_in_weights<dim>, own_volume<dim>,
+        kernel_points<dim>, kernel_at_nodes<dim>,    whole_ball<dim>,        factor_of_weights<dim>,
+        drift<dim>,         missing_at_horizon<dim>, missing_ramp<dim>};
 
     std::string percent(double defect)
     {
@@ -42,9 +46,10 @@ namespace plumbline::meshfree
       double typical, worst;
     };
 
-    Defect defect_of(const std::vector<Family<2>> &families, const Kernel<2> &kernel)
+    template <int dim>
+    Defect defect_of(const std::vector<Family<dim>> &families, const Kernel<dim> &kernel)
     {
-      const MomentCheck check = check_moments(families, kernel);
+      const MomentCheck check = check_moments(families, kernel, 2);
       return {check.typical(), std::max(check.defects[0].worst.value, check.second.value)};
     }
 
@@ -58,18 +63,19 @@ namespace plumbline::meshfree
     }
 
     /// Sets what each cause does to the moments, the others being undone.
-    void weigh(const GivenBonds &given, std::vector<Mend> &mends)
+    template <int dim>
+    void weigh(const GivenBonds<dim> &given, std::vector<Mend<dim>> &mends)
     {
-      const auto undo_all_but = [&](const Mend *left)
+      const auto undo_all_but = [&](const Mend<dim> *left)
       {
-        std::vector<Family<2>> families = given.families;
-        for (const Mend &mend : mends)
+        std::vector<Family<dim>> families = given.families;
+        for (const Mend<dim> &mend : mends)
           if (&mend != left)
             mend.undo(families);
         return defect_of(families, given.kernel);
       };
       const Defect after = undo_all_but(nullptr);
-      for (Mend &mend : mends)
+      for (Mend<dim> &mend : mends)
       {
         const Defect before = undo_all_but(&mend);
         mend.cause.before = before.typical;
@@ -80,9 +86,10 @@ namespace plumbline::meshfree
     }
 
     /// The one place where causes are dropped whose removal does not make the moments better.
-    void keep_what_helps(const GivenBonds &given, std::vector<Mend> &mends)
+    template <int dim>
+    void keep_what_helps(const GivenBonds<dim> &given, std::vector<Mend<dim>> &mends)
     {
-      const auto helps = [](const Mend &mend)
+      const auto helps = [](const Mend<dim> &mend)
       {
         return mend.need == Need::nothing || is_better(mend.cause) ||
                (mend.need == Need::not_worse && mend.cause.after <= mend.cause.before + exact);
@@ -96,13 +103,14 @@ namespace plumbline::meshfree
     }
 
     /// What there is to say of a factor of the volumes.
-    void add_volume_factor(double factor, std::vector<Cause> &causes)
+    template <int dim>
+    void add_volume_factor(double factor, double size, std::vector<Cause> &causes)
     {
       constexpr double same = 1e-3;
       if (factor == 1)
         return;
-      const std::string times =
-          base::to_text(factor, 4) + " times the areas of their cells, " + unit_text(factor);
+      const std::string times = base::to_text(factor, 4) + " times the " + measure<dim>() +
+                                "s of their cells, " + unit_text(factor, dim, size);
       for (Cause &cause : causes)
         if (std::abs(std::abs(cause.factor) / factor - 1) < same)
         {
@@ -114,18 +122,19 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  Explanation explain(const GivenBonds &given, const std::optional<Recognised> &rule,
-                      const Circumstances &circumstances)
+  template <int dim>
+  Explanation<dim> explain(const GivenBonds<dim> &given, const std::optional<Recognised<dim>> &rule,
+                           const Circumstances<dim> &circumstances)
   {
-    Explanation result{{}, rule};
-    std::vector<Mend> mends;
-    std::vector<Family<2>> families = given.families;
-    const GivenBonds mended{families,      given.kernel,    given.cells,
-                            given.volumes, given.precision, given.origin};
-    for (const Hypothesis &hypothesis : hypotheses)
+    Explanation<dim> result{{}, rule};
+    std::vector<Mend<dim>> mends;
+    std::vector<Family<dim>> families = given.families;
+    const GivenBonds<dim> mended{families,        given.kernel, given.cells,  given.volumes,
+                                 given.precision, given.origin, given.lattice};
+    for (const Hypothesis<dim> &hypothesis : hypotheses<dim>)
     {
-      const bool has_factor = std::any_of(mends.begin(), mends.end(),
-                                          [](const Mend &mend) { return mend.cause.factor != 1; });
+      const bool has_factor = std::any_of(
+          mends.begin(), mends.end(), [](const Mend<dim> &mend) { return mend.cause.factor != 1; });
       auto mend = hypothesis({mended, result.rule, circumstances, has_factor});
       if (!mend)
         continue;
@@ -137,7 +146,7 @@ namespace plumbline::meshfree
         break; // of weights that are all 0 there is nothing else to say
     }
     keep_what_helps(given, mends);
-    for (const Mend &mend : mends)
+    for (const Mend<dim> &mend : mends)
     {
       result.causes.push_back(mend.cause);
       if (mend.says_closer)
@@ -145,19 +154,22 @@ namespace plumbline::meshfree
                                          ? closer(mend.cause)
                                          : "; for this kernel the moments do not depend on it";
     }
-    add_volume_factor(circumstances.volume_factor, result.causes);
+    add_volume_factor<dim>(circumstances.volume_factor, node_size(given), result.causes);
     return result;
   }
 
-  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule,
+  template <int dim>
+  std::vector<Cause> find_causes(const GivenBonds<dim> &given,
+                                 const std::optional<Recognised<dim>> &rule,
                                  const std::vector<std::string> &meant)
   {
-    return explain(given, rule, {meant}).causes;
+    return explain(given, rule, Circumstances<dim>{meant}).causes;
   }
 
-  std::function<void(std::vector<Family<2>> &)> for_each_bond(Change change)
+  template <int dim>
+  std::function<void(std::vector<Family<dim>> &)> for_each_bond(Change<dim> change)
   {
-    return [change = std::move(change)](std::vector<Family<2>> &families)
+    return [change = std::move(change)](std::vector<Family<dim>> &families)
     {
       for (std::size_t i = 0; i < families.size(); ++i)
         for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
@@ -165,16 +177,18 @@ namespace plumbline::meshfree
     };
   }
 
-  double typical(const std::vector<Family<2>> &families, const Kernel<2> &kernel)
+  template <int dim>
+  double typical(const std::vector<Family<dim>> &families, const Kernel<dim> &kernel)
   {
-    return check_moments(families, kernel).typical();
+    return check_moments(families, kernel, 2).typical();
   }
 
-  double common_ratio(const std::vector<Family<2>> &families)
+  template <int dim>
+  double common_ratio(const std::vector<Family<dim>> &families)
   {
     std::vector<double> ratios;
-    for (const Family<2> &family : families)
-      for (const Bond<2> &bond : family.bonds)
+    for (const Family<dim> &family : families)
+      for (const Bond<dim> &bond : family.bonds)
         ratios.push_back(bond.weight / bond.area);
     return spread_of(ratios).median;
   }
@@ -184,4 +198,21 @@ namespace plumbline::meshfree
     constexpr double much_closer = .25;
     return before > exact && (after < exact || after <= much_closer * before);
   }
+
+  template Explanation<2> explain(const GivenBonds<2> &, const std::optional<Recognised<2>> &,
+                                  const Circumstances<2> &);
+  template std::vector<Cause> find_causes(const GivenBonds<2> &,
+                                          const std::optional<Recognised<2>> &,
+                                          const std::vector<std::string> &);
+  template std::function<void(std::vector<Family<2>> &)> for_each_bond(Change<2>);
+  template double typical(const std::vector<Family<2>> &, const Kernel<2> &);
+  template double common_ratio(const std::vector<Family<2>> &);
+  template Explanation<3> explain(const GivenBonds<3> &, const std::optional<Recognised<3>> &,
+                                  const Circumstances<3> &);
+  template std::vector<Cause> find_causes(const GivenBonds<3> &,
+                                          const std::optional<Recognised<3>> &,
+                                          const std::vector<std::string> &);
+  template std::function<void(std::vector<Family<3>> &)> for_each_bond(Change<3>);
+  template double typical(const std::vector<Family<3>> &, const Kernel<3> &);
+  template double common_ratio(const std::vector<Family<3>> &);
 } // namespace plumbline::meshfree

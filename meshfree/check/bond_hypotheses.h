@@ -25,17 +25,19 @@ namespace plumbline::meshfree
   };
 
   /// What is known besides the bonds.
+  template <int dim>
   struct Circumstances
   {
     std::vector<std::string> meant = {}; ///< rules that the weights are meant to be; empty: unknown
     double volume_factor = 1; ///< that the volumes carry, see VolumeCheck; undone in what is given
-    std::vector<CollarBond> of_collar = {}; ///< bonds of nodes in the collar
+    std::vector<CollarBond<dim>> of_collar = {}; ///< bonds of nodes in the collar
   };
 
+  template <int dim>
   struct Explanation
   {
     std::vector<Cause> causes;
-    std::optional<Recognised> rule; ///< of the weights with structural causes undone
+    std::optional<Recognised<dim>> rule; ///< of the weights with structural causes undone
   };
 
   /// Tries what other codes have been seen to do, in this order: all weights are 0; each pair of
@@ -53,10 +55,13 @@ namespace plumbline::meshfree
   /// operator. Where none is meant the moments alone cannot tell: of kernels that fall to 0 at the
   /// horizon, FA's are as good as those of ramps, or better.
   /// @param rule  of the weights as they are given, if one is recognised
-  Explanation explain(const GivenBonds &given, const std::optional<Recognised> &rule,
-                      const Circumstances &circumstances = {});
+  template <int dim>
+  Explanation<dim> explain(const GivenBonds<dim> &given, const std::optional<Recognised<dim>> &rule,
+                           const Circumstances<dim> &circumstances = {});
 
   /// The causes alone.
-  std::vector<Cause> find_causes(const GivenBonds &given, const std::optional<Recognised> &rule,
+  template <int dim>
+  std::vector<Cause> find_causes(const GivenBonds<dim> &given,
+                                 const std::optional<Recognised<dim>> &rule,
                                  const std::vector<std::string> &meant = {});
 } // namespace plumbline::meshfree

@@ -15,7 +15,8 @@ namespace plumbline::meshfree
 
     /// Of weights over volumes to what is usual of such bonds, where that is much the same for
     /// shorter and longer ones; one for each pair, not finite where there is none.
-    std::vector<double> ratios(const GivenBonds &given, const std::vector<Pair> &pairs,
+    template <int dim>
+    std::vector<double> ratios(const GivenBonds<dim> &given, const std::vector<Pair<dim>> &pairs,
                                const BondProfile &profile)
     {
       constexpr double steep = .2; // usual weights change by more over half a node's size
@@ -25,7 +26,7 @@ namespace plumbline::meshfree
       {
         const double middle = .5 * (usual[k].low + usual[k].high);
         const bool is_flat = usual[k].high - usual[k].low < steep * std::abs(middle);
-        values[k] = is_flat && pairs[k].bond != Outlier::none
+        values[k] = is_flat && pairs[k].bond != Outlier<dim>::none
                         ? values[k] / middle
                         : std::numeric_limits<double>::quiet_NaN();
       }
@@ -33,7 +34,8 @@ namespace plumbline::meshfree
     }
 
     /// The median of each node that has enough bonds.
-    std::map<std::size_t, double> medians(const std::vector<Pair> &pairs,
+    template <int dim>
+    std::map<std::size_t, double> medians(const std::vector<Pair<dim>> &pairs,
                                           const std::vector<double> &ratios, bool is_to)
     {
       constexpr std::size_t few = 4;
@@ -49,10 +51,12 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::vector<Outlier> find_scaled_nodes(const GivenBonds &given, const std::vector<Pair> &pairs,
-                                         const BondProfile &profile)
+  template <int dim>
+  std::vector<Outlier<dim>> find_scaled_nodes(const GivenBonds<dim> &given,
+                                              const std::vector<Pair<dim>> &pairs,
+                                              const BondProfile &profile)
   {
-    std::vector<Outlier> outliers;
+    std::vector<Outlier<dim>> outliers;
     const std::vector<double> all = ratios(given, pairs, profile);
     for (const bool is_to : {true, false})
     {
@@ -66,7 +70,7 @@ namespace plumbline::meshfree
                 std::abs(median - spread.median) / spread.allowed(least * std::abs(spread.median));
             away > 1 && median != 0)
         {
-          Outlier one{is_to ? Defect::neighbour : Defect::family, node};
+          Outlier<dim> one{is_to ? Defect::neighbour : Defect::family, node};
           one.found = median / spread.median;
           one.expected = 1;
           one.distance = away;
@@ -76,14 +80,24 @@ namespace plumbline::meshfree
     return outliers;
   }
 
-  std::vector<Family<2>> without_factors(std::vector<Family<2>> families,
-                                         const std::vector<Outlier> &scaled)
+  template <int dim>
+  std::vector<Family<dim>> without_factors(std::vector<Family<dim>> families,
+                                           const std::vector<Outlier<dim>> &scaled)
   {
-    for (const Outlier &one : scaled)
+    for (const Outlier<dim> &one : scaled)
       for (std::size_t i = 0; i < families.size(); ++i)
         for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
           if (one.node == (one.defect == Defect::family ? i : families[i].neighbours[k]))
             families[i].bonds[k].weight /= one.found;
     return families;
   }
+
+  template std::vector<Outlier<2>>
+  find_scaled_nodes(const GivenBonds<2> &, const std::vector<Pair<2>> &, const BondProfile &);
+  template std::vector<Family<2>> without_factors(std::vector<Family<2>>,
+                                                  const std::vector<Outlier<2>> &);
+  template std::vector<Outlier<3>>
+  find_scaled_nodes(const GivenBonds<3> &, const std::vector<Pair<3>> &, const BondProfile &);
+  template std::vector<Family<3>> without_factors(std::vector<Family<3>>,
+                                                  const std::vector<Outlier<3>> &);
 } // namespace plumbline::meshfree

@@ -11,10 +11,13 @@ namespace plumbline::meshfree
   /// a factor shows that is lost among the differences of the weights themselves.
   /// Limits: of nodes with four bonds at least whose length is out of the range where weights fall
   /// off to 0, and of factors beyond 1.25, or more where weights differ from node to node anyway.
-  std::vector<Outlier> find_scaled_nodes(const GivenBonds &given, const std::vector<Pair> &pairs,
-                                         const BondProfile &profile);
+  template <int dim>
+  std::vector<Outlier<dim>> find_scaled_nodes(const GivenBonds<dim> &given,
+                                              const std::vector<Pair<dim>> &pairs,
+                                              const BondProfile &profile);
 
   /// The families with the weights of such nodes divided by their factors.
-  std::vector<Family<2>> without_factors(std::vector<Family<2>> families,
-                                         const std::vector<Outlier> &scaled);
+  template <int dim>
+  std::vector<Family<dim>> without_factors(std::vector<Family<dim>> families,
+                                           const std::vector<Outlier<dim>> &scaled);
 } // namespace plumbline::meshfree

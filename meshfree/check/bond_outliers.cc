@@ -6,6 +6,7 @@
 #include "meshfree/check/exact_families.h"
 #include "meshfree/check/node_moments.h"
 #include "meshfree/check/rule_comparison.h"
+#include "meshfree/check/sizes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,23 +33,27 @@ namespace plumbline::meshfree
       return std::clamp(value, usual.low, usual.high);
     }
 
-    Outlier outlier(Defect defect, const Pair &pair, double distance)
+    template <int dim>
+    Outlier<dim> outlier(Defect defect, const Pair<dim> &pair, double distance)
     {
-      Outlier result{defect, pair.node, pair.neighbour, pair.bond};
+      Outlier<dim> result{defect, pair.node, pair.neighbour, pair.bond};
       result.distance = distance;
       return result;
     }
 
     /// That a bond is there, as others like it are.
-    bool has_weight(const GivenBonds &given, const Pair &pair, const BondProfile::Usual &usual,
-                    double floor)
+    template <int dim>
+    bool has_weight(const GivenBonds<dim> &given, const Pair<dim> &pair,
+                    const BondProfile::Usual &usual, double floor)
     {
-      return pair.bond != Outlier::none && usual.low > floor && bond_of(given, pair).weight != 0;
+      return pair.bond != Outlier<dim>::none && usual.low > floor &&
+             bond_of(given, pair).weight != 0;
     }
 
     /// Weights over volumes, absent bonds as 0, against the profile.
-    void compare_weights(const GivenBonds &given, const std::vector<Pair> &pairs,
-                         const BondProfile &profile, std::vector<Outlier> &outliers)
+    template <int dim>
+    void compare_weights(const GivenBonds<dim> &given, const std::vector<Pair<dim>> &pairs,
+                         const BondProfile &profile, std::vector<Outlier<dim>> &outliers)
     {
       const std::vector<double> values = weights_over_volumes(given, pairs);
       const double floor = given.precision.weight;
@@ -60,26 +65,37 @@ namespace plumbline::meshfree
             continue; // r < horizon or r <= horizon: a choice
           const double volume = given.volumes[pairs[k].neighbour],
                        expected = nearest(values[k], usual[k]);
-          const Defect defect = pairs[k].bond == Outlier::none ? Defect::missing
-                                : std::abs(expected) < floor   ? Defect::spurious
-                                                               : Defect::weight;
+          const Defect defect = pairs[k].bond == Outlier<dim>::none ? Defect::missing
+                                : std::abs(expected) < floor        ? Defect::spurious
+                                                                    : Defect::weight;
           outliers.push_back(outlier(defect, pairs[k], away));
           outliers.back().found = values[k] * volume;
           outliers.back().expected = expected * volume;
         }
     }
 
+    /// The size of the cross product.
+    template <int dim>
+    double cross(const dealii::Tensor<1, dim> &a, const dealii::Tensor<1, dim> &b)
+    {
+      if constexpr (dim == 2)
+        return std::abs(a[0] * b[1] - a[1] * b[0]);
+      else
+        return dealii::cross_product_3d(a, b).norm();
+    }
+
     /// From where kernel points are measured: a part of the way to the neighbours, or the centroids
     /// of their cells, whichever most bonds are nearer to.
-    std::vector<Point<2>> usual_points(const GivenBonds &given, const std::vector<Pair> &bonds,
-                                       double point_scale)
+    template <int dim>
+    std::vector<Point<dim>> usual_points(const GivenBonds<dim> &given,
+                                         const std::vector<Pair<dim>> &bonds, double point_scale)
     {
-      std::vector<Point<2>> nodes, centroids;
+      std::vector<Point<dim>> nodes, centroids;
       std::vector<double> to_nodes, to_centroids;
-      for (const Pair &pair : bonds)
+      for (const Pair<dim> &pair : bonds)
       {
         const std::size_t j = pair.neighbour;
-        const Point<2> &q = bond_of(given, pair).kernel_point;
+        const Point<dim> &q = bond_of(given, pair).kernel_point;
         nodes.push_back(point_scale * pair.xi);
         centroids.push_back(pair.xi + (given.cells.centroid[j] - given.cells.nodes[j]));
         to_nodes.push_back(q.distance(nodes.back()));
@@ -89,19 +105,21 @@ namespace plumbline::meshfree
     }
 
     /// Of kernel points, in sizes of a node.
-    double point_tolerance(const GivenBonds &given)
+    template <int dim>
+    double point_tolerance(const GivenBonds<dim> &given)
     {
       return file_tolerance + 4 * given.precision.length / node_size(given);
     }
 
     /// Where the kernel is taken: along the bond and beside it, in sizes of the neighbour.
-    void compare_points(const GivenBonds &given, const std::vector<Pair> &pairs, double point_scale,
-                        std::vector<Outlier> &outliers)
+    template <int dim>
+    void compare_points(const GivenBonds<dim> &given, const std::vector<Pair<dim>> &pairs,
+                        double point_scale, std::vector<Outlier<dim>> &outliers)
     {
-      std::vector<Pair> bonds;
-      std::vector<Point<2>> xi;
-      for (const Pair &pair : pairs)
-        if (pair.bond != Outlier::none)
+      std::vector<Pair<dim>> bonds;
+      std::vector<Point<dim>> xi;
+      for (const Pair<dim> &pair : pairs)
+        if (pair.bond != Outlier<dim>::none)
         {
           bonds.push_back(pair);
           xi.push_back(pair.xi);
@@ -110,10 +128,10 @@ namespace plumbline::meshfree
       std::vector<double> along, beside;
       for (std::size_t k = 0; k < bonds.size(); ++k)
       {
-        const dealii::Tensor<1, 2> away = bond_of(given, bonds[k]).kernel_point - base[k];
-        const double r = xi[k].norm(), size = std::sqrt(given.volumes[bonds[k].neighbour]);
+        const dealii::Tensor<1, dim> away = bond_of(given, bonds[k]).kernel_point - base[k];
+        const double r = xi[k].norm(), size = cell_size<dim>(given.volumes[bonds[k].neighbour]);
         along.push_back(away * xi[k] / (r * size));
-        beside.push_back(std::abs(away[0] * xi[k][1] - away[1] * xi[k][0]) / (r * size));
+        beside.push_back(cross<dim>(away, xi[k]) / (r * size));
       }
       const BondProfile profile(xi, node_size(given), given.precision.length);
       const double floor = point_tolerance(given);
@@ -124,7 +142,7 @@ namespace plumbline::meshfree
                 std::max(distance(along[k], usual_along[k]), distance(beside[k], usual_beside[k]));
             away > 1)
         {
-          const double r = xi[k].norm(), size = std::sqrt(given.volumes[bonds[k].neighbour]);
+          const double r = xi[k].norm(), size = cell_size<dim>(given.volumes[bonds[k].neighbour]);
           outliers.push_back(outlier(Defect::kernel_point, bonds[k], away));
           outliers.back().found_point = bond_of(given, bonds[k]).kernel_point;
           outliers.back().expected_point =
@@ -134,18 +152,19 @@ namespace plumbline::meshfree
 
     /// w C over the neighbour's volume, from both ends. The end that is named is the one that is
     /// farther from what is usual at its length.
-    void compare_ends(const GivenBonds &given, const std::vector<Pair> &pairs,
-                      std::vector<Outlier> &outliers)
+    template <int dim>
+    void compare_ends(const GivenBonds<dim> &given, const std::vector<Pair<dim>> &pairs,
+                      std::vector<Outlier<dim>> &outliers)
     {
-      std::vector<Pair> bonds;
-      std::vector<Point<2>> xi;
+      std::vector<Pair<dim>> bonds;
+      std::vector<Point<dim>> xi;
       std::vector<double> values;
       std::map<std::pair<std::size_t, std::size_t>, std::size_t> index_of;
       double scale = 0;
-      for (const Pair &pair : pairs)
-        if (pair.bond != Outlier::none && pair.neighbour < given.families.size())
+      for (const Pair<dim> &pair : pairs)
+        if (pair.bond != Outlier<dim>::none && pair.neighbour < given.families.size())
         {
-          const Bond<2> &bond = bond_of(given, pair);
+          const Bond<dim> &bond = bond_of(given, pair);
           index_of[{pair.node, pair.neighbour}] = bonds.size();
           bonds.push_back(pair);
           xi.push_back(pair.xi);
@@ -158,7 +177,7 @@ namespace plumbline::meshfree
         std::size_t there, back;
       };
       std::vector<Ends> twos;
-      std::vector<Point<2>> xi_of_twos;
+      std::vector<Point<dim>> xi_of_twos;
       std::vector<double> differences;
       for (std::size_t k = 0; k < bonds.size(); ++k)
         if (const auto back = index_of.find({bonds[k].neighbour, bonds[k].node});
@@ -185,7 +204,8 @@ namespace plumbline::meshfree
     }
 
     /// Weight outliers of one node, or to one node, that are most of its bonds: one outlier.
-    void gather(const GivenBonds &given, std::vector<Outlier> &outliers)
+    template <int dim>
+    void gather(const GivenBonds<dim> &given, std::vector<Outlier<dim>> &outliers)
     {
       constexpr double most = .8;
       constexpr std::size_t few = 4;
@@ -203,8 +223,8 @@ namespace plumbline::meshfree
             ++n_to[j];
           }
         }
-      const auto is_weight = [](const Outlier &o) { return o.defect == Defect::weight; };
-      for (const Outlier &o : outliers)
+      const auto is_weight = [](const Outlier<dim> &o) { return o.defect == Defect::weight; };
+      for (const Outlier<dim> &o : outliers)
         if (is_weight(o) && is_nothing(o.found, o.neighbour))
         {
           ++n_of[o.node];
@@ -213,7 +233,7 @@ namespace plumbline::meshfree
       for (const bool is_to : {true, false})
       {
         std::map<std::size_t, std::vector<double>> ratios;
-        for (const Outlier &o : outliers)
+        for (const Outlier<dim> &o : outliers)
           if (is_weight(o) && o.expected != 0)
             ratios[is_to ? o.neighbour : o.node].push_back(o.found / o.expected);
         for (const auto &[node, own] : ratios)
@@ -221,14 +241,14 @@ namespace plumbline::meshfree
           const std::size_t n = is_to ? n_to[node] : n_of[node];
           if (n < few || static_cast<double>(own.size()) < most * static_cast<double>(n))
             continue;
-          Outlier one{is_to ? Defect::neighbour : Defect::family, node};
+          Outlier<dim> one{is_to ? Defect::neighbour : Defect::family, node};
           one.found = spread_of(own).median;
           one.expected = 1;
-          for (const Outlier &o : outliers)
+          for (const Outlier<dim> &o : outliers)
             if (is_weight(o) && (is_to ? o.neighbour : o.node) == node)
               one.distance = std::max(one.distance, o.distance);
           outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
-                                        [&, at = node](const Outlier &o) {
+                                        [&, at = node](const Outlier<dim> &o) {
                                           return is_weight(o) &&
                                                  (is_to ? o.neighbour : o.node) == at;
                                         }),
@@ -239,7 +259,8 @@ namespace plumbline::meshfree
     }
 
     /// Two bonds that are missing from both ends are one outlier.
-    void pair_up(std::vector<Outlier> &outliers)
+    template <int dim>
+    void pair_up(std::vector<Outlier<dim>> &outliers)
     {
       std::map<std::pair<std::size_t, std::size_t>, std::size_t> missing;
       for (std::size_t k = 0; k < outliers.size(); ++k)
@@ -255,28 +276,30 @@ namespace plumbline::meshfree
         }
       std::size_t k = 0;
       outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
-                                    [&](const Outlier &) { return is_double[k++]; }),
+                                    [&](const Outlier<dim> &) { return is_double[k++]; }),
                      outliers.end());
     }
 
-    bool names(const Outlier &o, std::size_t node, std::size_t neighbour)
+    template <int dim>
+    bool names(const Outlier<dim> &o, std::size_t node, std::size_t neighbour)
     {
       return (o.node == node && o.neighbour == neighbour) ||
              (o.node == neighbour && o.neighbour == node);
     }
 
     /// Adds those that say something that no other one says.
-    void add_new(const std::vector<Outlier> &more, std::vector<Outlier> &outliers)
+    template <int dim>
+    void add_new(const std::vector<Outlier<dim>> &more, std::vector<Outlier<dim>> &outliers)
     {
       const std::size_t n = outliers.size();
-      for (const Outlier &one : more)
+      for (const Outlier<dim> &one : more)
         if (std::none_of(outliers.begin(), outliers.begin() + static_cast<std::ptrdiff_t>(n),
-                         [&](const Outlier &o)
+                         [&](const Outlier<dim> &o)
                          {
-                           if (o.neighbour == Outlier::none)
+                           if (o.neighbour == Outlier<dim>::none)
                              return o.node == one.node ||
                                     (o.defect == Defect::neighbour && o.node == one.neighbour);
-                           return one.neighbour == Outlier::none
+                           return one.neighbour == Outlier<dim>::none
                                       ? o.node == one.node ||
                                             (o.is_both_ways && o.neighbour == one.node)
                                       : names(o, one.node, one.neighbour);
@@ -287,14 +310,15 @@ namespace plumbline::meshfree
 
   namespace
   {
-    void find_by_rule(const GivenBonds &given, const Recognised &rule,
-                      const std::vector<Pair> &pairs, const ExactFamilies &exact,
-                      double point_scale, std::vector<Outlier> &outliers)
+    template <int dim>
+    void find_by_rule(const GivenBonds<dim> &given, const Recognised<dim> &rule,
+                      const std::vector<Pair<dim>> &pairs, const ExactFamilies<dim> &exact,
+                      double point_scale, std::vector<Outlier<dim>> &outliers)
     {
       outliers = compare_with_rule(given, rule);
       if (!rule.has_kernel_points)
       {
-        std::vector<Outlier> points;
+        std::vector<Outlier<dim>> points;
         compare_points(given, pairs, point_scale, points);
         add_new(points, outliers);
       }
@@ -304,21 +328,22 @@ namespace plumbline::meshfree
 
     /// Without a rule to compare with. Nodes with a factor of their own first, since it hides what
     /// else there is.
-    void find_by_others(const GivenBonds &raw, const std::vector<Pair> &pairs,
-                        const ExactFamilies &exact, double point_scale,
-                        std::vector<Outlier> &outliers)
+    template <int dim>
+    void find_by_others(const GivenBonds<dim> &raw, const std::vector<Pair<dim>> &pairs,
+                        const ExactFamilies<dim> &exact, double point_scale,
+                        std::vector<Outlier<dim>> &outliers)
     {
-      std::vector<Point<2>> xi;
-      for (const Pair &pair : pairs)
+      std::vector<Point<dim>> xi;
+      for (const Pair<dim> &pair : pairs)
         xi.push_back(pair.xi);
       const BondProfile profile(xi, node_size(raw), raw.precision.length);
       outliers = find_scaled_nodes(raw, pairs, profile);
       exact.acquit(outliers);
-      const std::vector<Family<2>> families = without_factors(raw.families, outliers);
-      const GivenBonds given{families,    raw.kernel,    raw.cells,
-                             raw.volumes, raw.precision, raw.origin};
+      const std::vector<Family<dim>> families = without_factors(raw.families, outliers);
+      const GivenBonds<dim> given{families,    raw.kernel,    raw.cells,
+                                  raw.volumes, raw.precision, raw.origin};
       compare_weights(given, pairs, profile, outliers);
-      std::vector<Outlier> more;
+      std::vector<Outlier<dim>> more;
       compare_points(given, pairs, point_scale, more);
       add_new(more, outliers);
       exact.acquit(outliers);
@@ -332,16 +357,18 @@ namespace plumbline::meshfree
       add_new(more, outliers);
     }
 
-    std::vector<Family<2>> scaled(std::vector<Family<2>> families, double scale)
+    template <int dim>
+    std::vector<Family<dim>> scaled(std::vector<Family<dim>> families, double scale)
     {
-      for (Family<2> &family : families)
-        for (Bond<2> &bond : family.bonds)
+      for (Family<dim> &family : families)
+        for (Bond<dim> &bond : family.bonds)
           bond.weight *= scale;
       return families;
     }
 
     /// What makes most weights about as large as the volumes, whatever their unit is.
-    double weight_scale(const GivenBonds &given, const std::vector<Pair> &pairs)
+    template <int dim>
+    double weight_scale(const GivenBonds<dim> &given, const std::vector<Pair<dim>> &pairs)
     {
       constexpr double like_volumes = 4; // then the numbers stay as they are
       std::vector<double> sizes;
@@ -359,21 +386,24 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
-                                     double point_scale)
+  template <int dim>
+  std::vector<Outlier<dim>> find_outliers(const GivenBonds<dim> &given,
+                                          const std::optional<Recognised<dim>> &rule,
+                                          double point_scale)
   {
-    const std::vector<Pair> pairs = all_pairs(given);
-    const ExactFamilies exact(given);
-    std::vector<Outlier> outliers;
+    const std::vector<Pair<dim>> pairs = all_pairs(given);
+    const ExactFamilies<dim> exact(given);
+    std::vector<Outlier<dim>> outliers;
     if (rule)
       find_by_rule(given, *rule, pairs, exact, point_scale, outliers);
     else
     {
       const double scale = weight_scale(given, pairs);
-      const std::vector<Family<2>> families = scaled(given.families, 1 / scale);
-      find_by_others({families, given.kernel, given.cells, given.volumes, given.precision}, pairs,
-                     exact, point_scale, outliers);
-      for (Outlier &one : outliers)
+      const std::vector<Family<dim>> families = scaled(given.families, 1 / scale);
+      find_by_others(
+          GivenBonds<dim>{families, given.kernel, given.cells, given.volumes, given.precision},
+          pairs, exact, point_scale, outliers);
+      for (Outlier<dim> &one : outliers)
         if (is_of_weights(one.defect))
         {
           one.found *= scale;
@@ -382,7 +412,13 @@ namespace plumbline::meshfree
     }
     pair_up(outliers);
     std::stable_sort(outliers.begin(), outliers.end(),
-                     [](const Outlier &a, const Outlier &b) { return a.distance > b.distance; });
+                     [](const Outlier<dim> &a, const Outlier<dim> &b)
+                     { return a.distance > b.distance; });
     return outliers;
   }
+
+  template std::vector<Outlier<2>> find_outliers(const GivenBonds<2> &,
+                                                 const std::optional<Recognised<2>> &, double);
+  template std::vector<Outlier<3>> find_outliers(const GivenBonds<3> &,
+                                                 const std::optional<Recognised<3>> &, double);
 } // namespace plumbline::meshfree

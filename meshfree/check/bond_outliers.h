@@ -18,6 +18,7 @@ namespace plumbline::meshfree
   };
 
   /// One bond or node that is inconsistent with the others.
+  template <int dim>
   struct Outlier
   {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -25,13 +26,13 @@ namespace plumbline::meshfree
     Defect defect;
     std::size_t node, neighbour = none; ///< neighbour none: it is about the node
     std::size_t bond = none;            ///< its index in the family; none: there is none
-    double found = 0, expected = 0; ///< weights, volumes [length^2], w C / volume, or a moment over
-                                    ///< its exact value
-    Point<2> found_point = {},
-             expected_point = {}; ///< of the kernel, relative to the node [length]
-    unsigned int degree = 0;      ///< of the moment
-    double distance = 0;          ///< from what is usual, in what is allowed
-    bool is_both_ways = false;    ///< missing in both families
+    double found = 0, expected = 0; ///< weights, volumes [length^dim], w C / volume, or a moment
+                                    ///< over its exact value
+    Point<dim> found_point = {},
+               expected_point = {}; ///< of the kernel, relative to the node [length]
+    unsigned int degree = 0;        ///< of the moment
+    double distance = 0;            ///< from what is usual, in what is allowed
+    bool is_both_ways = false;      ///< missing in both families
   };
 
   /// Each quantity is held against its own spread over the bonds or nodes, see Spread; weights and
@@ -42,6 +43,8 @@ namespace plumbline::meshfree
   /// @param point_scale  kernel points are expected at this fraction of the way to the neighbour
   /// Limits: a defect of the size of what differs from bond to bond anyway is not found; many
   /// defects of one kind (above one in 13) are no outliers. Cost: .2 ms a node, 3 kB a node.
-  std::vector<Outlier> find_outliers(const GivenBonds &given, const std::optional<Recognised> &rule,
-                                     double point_scale = 1);
+  template <int dim>
+  std::vector<Outlier<dim>> find_outliers(const GivenBonds<dim> &given,
+                                          const std::optional<Recognised<dim>> &rule,
+                                          double point_scale = 1);
 } // namespace plumbline::meshfree

@@ -1,5 +1,6 @@
 #include "meshfree/check/bond_pairs.h"
 
+#include "meshfree/check/sizes.h"
 #include "meshfree/rules/families.h"
 
 #include <algorithm>
@@ -10,11 +11,12 @@ namespace plumbline::meshfree
   namespace
   {
     /// The length that all bonds but one in a hundred have at most, with half a node's size.
-    double reach_of(const GivenBonds &given)
+    template <int dim>
+    double reach_of(const GivenBonds<dim> &given)
     {
       std::vector<double> lengths;
-      for (const Family<2> &family : given.families)
-        for (const Bond<2> &bond : family.bonds)
+      for (const Family<dim> &family : given.families)
+        for (const Bond<dim> &bond : family.bonds)
           lengths.push_back(bond.xi.norm());
       if (lengths.empty())
         return given.kernel.horizon();
@@ -24,27 +26,29 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  double node_size(const GivenBonds &given)
+  template <int dim>
+  double node_size(const GivenBonds<dim> &given)
   {
     double area = 0;
     for (std::size_t i = 0; i < given.families.size(); ++i)
       area += given.cells.area[i];
-    return std::sqrt(area / static_cast<double>(given.families.size()));
+    return cell_size<dim>(area / static_cast<double>(given.families.size()));
   }
 
-  std::vector<Pair> all_pairs(const GivenBonds &given)
+  template <int dim>
+  std::vector<Pair<dim>> all_pairs(const GivenBonds<dim> &given)
   {
-    std::vector<geometry::Box> places;
-    for (const Point<2> &x : given.cells.nodes)
+    std::vector<typename geometry::BoxSearch<dim>::Box> places;
+    for (const Point<dim> &x : given.cells.nodes)
       places.push_back({x, x});
-    const geometry::BoxSearch<2> search(places);
+    const geometry::BoxSearch<dim> search(places);
     const double reach = reach_of(given);
-    std::vector<Pair> pairs;
+    std::vector<Pair<dim>> pairs;
     std::vector<unsigned int> near;
     for (std::size_t i = 0; i < given.families.size(); ++i)
     {
-      const Family<2> &family = given.families[i];
-      const Point<2> &x = given.cells.nodes[i];
+      const Family<dim> &family = given.families[i];
+      const Point<dim> &x = given.cells.nodes[i];
       search.find(box_around(x, reach), near);
       std::size_t k = 0;
       const auto add_bonds_before = [&](std::size_t j)
@@ -55,25 +59,36 @@ namespace plumbline::meshfree
       for (const unsigned int j : near)
       {
         add_bonds_before(j);
-        const Point<2> xi(given.cells.nodes[j] - x);
+        const Point<dim> xi(given.cells.nodes[j] - x);
         const bool has_bond = k < family.bonds.size() && family.neighbours[k] == j;
         if (has_bond)
           pairs.push_back({i, j, k++, xi});
         else if (j != i && xi.norm() <= reach)
-          pairs.push_back({i, j, Outlier::none, xi});
+          pairs.push_back({i, j, Outlier<dim>::none, xi});
       }
       add_bonds_before(given.cells.size());
     }
     return pairs;
   }
 
-  std::vector<double> weights_over_volumes(const GivenBonds &given, const std::vector<Pair> &pairs)
+  template <int dim>
+  std::vector<double> weights_over_volumes(const GivenBonds<dim> &given,
+                                           const std::vector<Pair<dim>> &pairs)
   {
     std::vector<double> values;
-    for (const Pair &pair : pairs)
-      values.push_back(pair.bond == Outlier::none
+    for (const Pair<dim> &pair : pairs)
+      values.push_back(pair.bond == Outlier<dim>::none
                            ? 0
                            : bond_of(given, pair).weight / given.volumes[pair.neighbour]);
     return values;
   }
+
+  template double node_size(const GivenBonds<2> &);
+  template std::vector<Pair<2>> all_pairs(const GivenBonds<2> &);
+  template std::vector<double> weights_over_volumes(const GivenBonds<2> &,
+                                                    const std::vector<Pair<2>> &);
+  template double node_size(const GivenBonds<3> &);
+  template std::vector<Pair<3>> all_pairs(const GivenBonds<3> &);
+  template std::vector<double> weights_over_volumes(const GivenBonds<3> &,
+                                                    const std::vector<Pair<3>> &);
 } // namespace plumbline::meshfree

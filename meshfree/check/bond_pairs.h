@@ -5,24 +5,30 @@
 namespace plumbline::meshfree
 {
   /// A free node and another one within reach of its bonds.
+  template <int dim>
   struct Pair
   {
     std::size_t node = 0, neighbour = 0;
     std::size_t bond = 0; ///< index into the node's family; Outlier::none: there is none
-    Point<2> xi;          ///< [length]
+    Point<dim> xi;        ///< [length]
   };
 
-  /// √ of the mean area of the free nodes' cells [length].
-  double node_size(const GivenBonds &given);
+  /// √, in space ∛, of the mean area or volume of the free nodes' cells [length].
+  template <int dim>
+  double node_size(const GivenBonds<dim> &given);
 
   /// All bonds, and all pairs without a bond that are no longer than most bonds and a half cell.
-  std::vector<Pair> all_pairs(const GivenBonds &given);
+  template <int dim>
+  std::vector<Pair<dim>> all_pairs(const GivenBonds<dim> &given);
 
-  inline const Bond<2> &bond_of(const GivenBonds &given, const Pair &pair)
+  template <int dim>
+  inline const Bond<dim> &bond_of(const GivenBonds<dim> &given, const Pair<dim> &pair)
   {
     return given.families[pair.node].bonds[pair.bond];
   }
 
   /// Of each pair's weight to its neighbour's volume; 0 where there is no bond.
-  std::vector<double> weights_over_volumes(const GivenBonds &given, const std::vector<Pair> &pairs);
+  template <int dim>
+  std::vector<double> weights_over_volumes(const GivenBonds<dim> &given,
+                                           const std::vector<Pair<dim>> &pairs);
 } // namespace plumbline::meshfree

@@ -1,6 +1,7 @@
 #include "meshfree/check/bond_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -19,12 +20,6 @@ namespace plumbline::meshfree
       const auto at = values.begin() + static_cast<std::ptrdiff_t>(n);
       std::nth_element(values.begin(), at, values.end());
       return *at;
-    }
-
-    /// With the length the same for all bonds that a turn by 90° or a reflection makes one.
-    double shorter_side(const Point<2> &xi)
-    {
-      return std::min(std::abs(xi[0]), std::abs(xi[1]));
     }
   } // namespace
 
@@ -52,26 +47,45 @@ namespace plumbline::meshfree
     return result;
   }
 
-  BondProfile::BondProfile(const std::vector<Point<2>> &xi, double size, double rounding)
-      : order_(xi.size())
+  template <int dim>
+  std::vector<BondProfile::Shape> BondProfile::shapes(const std::vector<Point<dim>> &xi)
+  {
+    constexpr double irrational = 1.618033988749895; // no two pairs of whole numbers are alike
+    std::vector<Shape> result;
+    for (const Point<dim> &one : xi)
+    {
+      std::array<double, dim> sides{};
+      for (unsigned int d = 0; d < dim; ++d)
+        sides[d] = std::abs(one[d]);
+      std::sort(sides.begin(), sides.end());
+      result.push_back({one.norm(), sides[0] + (dim == 3 ? irrational * sides[1] : 0)});
+    }
+    return result;
+  }
+
+  template std::vector<BondProfile::Shape> BondProfile::shapes(const std::vector<Point<2>> &);
+  template std::vector<BondProfile::Shape> BondProfile::shapes(const std::vector<Point<3>> &);
+
+  BondProfile::BondProfile(const std::vector<Shape> &bonds, double size, double rounding)
+      : order_(bonds.size())
   {
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(),
-              [&](std::size_t a, std::size_t b) { return xi[a].square() < xi[b].square(); });
+              [&](std::size_t a, std::size_t b) { return bonds[a].length < bonds[b].length; });
     constexpr double far_below = 1e-8; // what moves nodes, in sizes
-    find_classes(xi, std::max(far_below * size, 6 * rounding));
+    find_classes(bonds, std::max(far_below * size, 6 * rounding));
     if (!is_lattice_)
-      find_bins(xi, size);
+      find_bins(bonds, size);
   }
 
-  void BondProfile::find_classes(const std::vector<Point<2>> &xi, double same)
+  void BondProfile::find_classes(const std::vector<Shape> &bonds, double same)
   {
-    const auto side = [&](std::size_t k) { return shorter_side(xi[k]); };
+    const auto side = [&](std::size_t k) { return bonds[k].side; };
     std::vector<std::size_t> classes = order_, start;
     for (std::size_t from = 0, to = 0; from < classes.size(); from = to)
     {
       while (to < classes.size() &&
-             (to == from || xi[classes[to]].norm() - xi[classes[to - 1]].norm() <= same))
+             (to == from || bonds[classes[to]].length - bonds[classes[to - 1]].length <= same))
         ++to;
       std::sort(classes.begin() + static_cast<std::ptrdiff_t>(from),
                 classes.begin() + static_cast<std::ptrdiff_t>(to),
@@ -80,7 +94,7 @@ namespace plumbline::meshfree
         if (k == from || side(classes[k]) - side(classes[k - 1]) > same)
           start.push_back(k);
     }
-    is_lattice_ = start.size() * repeated <= xi.size();
+    is_lattice_ = start.size() * repeated <= bonds.size();
     if (!is_lattice_)
       return;
     for (std::size_t c = 0; c < start.size(); ++c)
@@ -90,10 +104,10 @@ namespace plumbline::meshfree
     start_ = std::move(start);
   }
 
-  void BondProfile::find_bins(const std::vector<Point<2>> &xi, double size)
+  void BondProfile::find_bins(const std::vector<Shape> &bonds, double size)
   {
     constexpr double width = .1, reach = .5; // in sizes
-    const auto length = [&](std::size_t k) { return xi[order_[k]].norm(); };
+    const auto length = [&](std::size_t k) { return bonds[order_[k]].length; };
     start_ = {0};
     for (std::size_t k = 0; k < order_.size(); ++k)
       if (k - start_.back() >= fewest && length(k) - length(start_.back()) > width * size &&

@@ -28,7 +28,11 @@ namespace plumbline::meshfree
     ///              four coordinates, are one
     /// @param size  of the nodes [length]
     /// @param rounding  of their coordinates [length]
-    BondProfile(const std::vector<Point<2>> &xi, double size, double rounding = 0);
+    template <int dim>
+    BondProfile(const std::vector<Point<dim>> &xi, double size, double rounding = 0)
+        : BondProfile(shapes(xi), size, rounding)
+    {
+    }
 
     bool is_lattice() const { return is_lattice_; }
 
@@ -43,8 +47,20 @@ namespace plumbline::meshfree
     std::vector<Usual> usual(const std::vector<double> &values, double floor) const;
 
   private:
-    void find_classes(const std::vector<Point<2>> &xi, double same);
-    void find_bins(const std::vector<Point<2>> &xi, double size);
+    /// What symmetry leaves of a bond.
+    struct Shape
+    {
+      double length = 0; ///< [length]
+      double side =
+          0; ///< that turns by 90° and reflections leave as it is, among bonds of one length
+    };
+
+    template <int dim>
+    static std::vector<Shape> shapes(const std::vector<Point<dim>> &xi);
+
+    BondProfile(const std::vector<Shape> &bonds, double size, double rounding);
+    void find_classes(const std::vector<Shape> &bonds, double same);
+    void find_bins(const std::vector<Shape> &bonds, double size);
 
     std::vector<std::size_t> order_; ///< by length; of lattices by class
     std::vector<std::size_t> start_; ///< of the classes, or bins of length, in it

@@ -11,13 +11,14 @@ namespace plumbline::meshfree
   namespace
   {
     /// Adds what differs from one family to the other; largest is of |w C|.
-    void compare(const Family<2> &mine, const Family<2> &ramped, const Kernel<2> &kernel,
+    template <int dim>
+    void compare(const Family<dim> &mine, const Family<dim> &ramped, const Kernel<dim> &kernel,
                  RampEffect &effect, double &largest)
     {
-      const auto entry = [&](const Bond<2> &bond)
+      const auto entry = [&](const Bond<dim> &bond)
       { return bond.weight * radial_value(kernel, bond); };
       for_both(mine, ramped,
-               [&](const Bond<2> *one, const Bond<2> *other, std::size_t)
+               [&](const Bond<dim> *one, const Bond<dim> *other, std::size_t)
                {
                  const double weight = one ? one->weight : 0,
                               ramped_weight = other ? other->weight : 0;
@@ -32,14 +33,15 @@ namespace plumbline::meshfree
 
   } // namespace
 
-  std::vector<RampEffect> ramp_effects(const GivenBonds &given,
-                                       const std::vector<Family<2>> &families)
+  template <int dim>
+  std::vector<RampEffect> ramp_effects(const GivenBonds<dim> &given,
+                                       const std::vector<Family<dim>> &families)
   {
-    const double before = check_moments(families, given.kernel).typical();
+    const double before = check_moments(families, given.kernel, 2).typical();
     std::vector<RampEffect> effects;
     for (const std::string name : {"LAMMPS", "QWJ", "PA-AC"})
     {
-      const std::vector<Family<2>> ramped = rule_families(name, given);
+      const std::vector<Family<dim>> ramped = rule_families(name, given);
       RampEffect effect;
       effect.rule = name;
       double largest = 0;
@@ -47,13 +49,13 @@ namespace plumbline::meshfree
         compare(families[i], ramped[i], given.kernel, effect, largest);
       effect.change /= largest > 0 ? largest : 1;
       effect.before = before;
-      effect.after = check_moments(ramped, given.kernel).typical();
+      effect.after = check_moments(ramped, given.kernel, 2).typical();
       effects.push_back(effect);
     }
     return effects;
   }
 
-  std::string ramp_text(const std::vector<RampEffect> &effects)
+  std::string ramp_text(const std::vector<RampEffect> &effects, const std::string &measure)
   {
     std::string same, others;
     for (const RampEffect &effect : effects)
@@ -64,8 +66,8 @@ namespace plumbline::meshfree
         same += (same.empty() ? "" : " and ") + effect.rule;
     std::string text = "whole cells where the horizon cuts them";
     if (!others.empty())
-      text += "; with partial areas the moments of most nodes would be off by " + others +
-              ", instead of " + base::to_percent(effects.front().before) +
+      text += "; with partial " + measure + "s the moments of most nodes would be off by " +
+              others + ", instead of " + base::to_percent(effects.front().before) +
               ", so that moments do not tell whether a ramp was left out: name the rule that is "
               "meant in Methods/names";
     if (!same.empty())
@@ -73,4 +75,9 @@ namespace plumbline::meshfree
               (others.empty() ? "" : ", its ramp being where no node or no kernel is");
     return text;
   }
+
+  template std::vector<RampEffect> ramp_effects(const GivenBonds<2> &,
+                                                const std::vector<Family<2>> &);
+  template std::vector<RampEffect> ramp_effects(const GivenBonds<3> &,
+                                                const std::vector<Family<3>> &);
 } // namespace plumbline::meshfree

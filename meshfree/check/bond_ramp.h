@@ -22,10 +22,13 @@ namespace plumbline::meshfree
 
   /// Of LAMMPS, QWJ and PA-AC.
   /// @param families  weights that are those of FA
-  std::vector<RampEffect> ramp_effects(const GivenBonds &given,
-                                       const std::vector<Family<2>> &families);
+  template <int dim>
+  std::vector<RampEffect> ramp_effects(const GivenBonds<dim> &given,
+                                       const std::vector<Family<dim>> &families);
 
   /// The same for people: that the weights are whole cells, and what ramps would make of the
   /// moments.
-  std::string ramp_text(const std::vector<RampEffect> &effects);
+  /// @param measure  area or volume
+  std::string ramp_text(const std::vector<RampEffect> &effects,
+                        const std::string &measure = "area");
 } // namespace plumbline::meshfree

@@ -9,20 +9,27 @@
 namespace plumbline::meshfree
 {
   /// Weights and kernel points of another code, and the nodes they belong to.
+  template <int dim>
   struct GivenBonds
   {
-    const std::vector<Family<2>> &families; ///< of the free nodes
-    const Kernel<2> &kernel;
-    const geometry::NodeCells<2> &cells; ///< of all nodes
-    const std::vector<double> &volumes;  ///< of all nodes, numbered as the cells
+    const std::vector<Family<dim>> &families; ///< of the free nodes
+    const Kernel<dim> &kernel;
+    const geometry::NodeCells<dim> &cells; ///< of all nodes; may have no pieces in space
+    const std::vector<double> &volumes;    ///< of all nodes, numbered as the cells
     Precision precision = {};
-    Point<2> origin = {}; ///< that the places of the cells count from, see GivenNodes
+    Point<dim> origin = {}; ///< that the places of the cells count from, see GivenNodes
+    double lattice =
+        0; ///< spacing, where the nodes are some of a lattice of cubes; else 0 [length]
   };
+
+  template <int dim>
+  GivenBonds(const std::vector<Family<dim>> &, const Kernel<dim> &,
+             const geometry::NodeCells<dim> &, const std::vector<double> &) -> GivenBonds<dim>;
 
   /// Calls visit(given bond or nullptr, bond of the rule or nullptr, neighbour) for the neighbours
   /// of either.
-  template <class Visit>
-  void for_both(const Family<2> &given, const Family<2> &rule, const Visit &visit)
+  template <int dim, class Visit>
+  void for_both(const Family<dim> &given, const Family<dim> &rule, const Visit &visit)
   {
     std::size_t a = 0, b = 0;
     while (a < given.bonds.size() || b < rule.bonds.size())
@@ -37,25 +44,30 @@ namespace plumbline::meshfree
 
   /// Whether a bond is as long as the horizon, to the rounding of the nodes' places. Codes take
   /// such bonds or leave them out, r <= horizon or r < horizon, and rounding may decide.
-  bool is_at_horizon(const GivenBonds &given, const Point<2> &xi);
+  template <int dim>
+  bool is_at_horizon(const GivenBonds<dim> &given, const Point<dim> &xi);
 
   /// The rule of ours that weights are, but for a common factor and some bonds.
+  template <int dim>
   struct Recognised
   {
     std::string rule;
     double factor = 1;
-    bool has_kernel_points = false;  ///< those of the rule, too
-    std::vector<Family<2>> families; ///< what the rule makes, its weights times the factor
+    bool has_kernel_points = false;    ///< those of the rule, too
+    std::vector<Family<dim>> families; ///< what the rule makes, its weights times the factor
 
     bool is_full_area() const; ///< whole cells, whatever part of them the horizon cuts off
   };
 
   /// What a rule makes of these nodes and volumes.
   /// @throws NumericalError  as Families::make
-  std::vector<Family<2>> rule_families(const std::string &name, const GivenBonds &given);
+  template <int dim>
+  std::vector<Family<dim>> rule_families(const std::string &name, const GivenBonds<dim> &given);
 
   /// Of all rules and counterexamples the one that most weights and kernel points agree with, nine
-  /// of ten weights at least, relative to the neighbours' volumes and their √. Bonds as long as the
-  /// horizon that one of both lacks do not count. Cost: .1 ms a node.
-  std::optional<Recognised> recognise(const GivenBonds &given);
+  /// of ten weights at least, relative to the neighbours' volumes and the sizes of their cells.
+  /// Bonds as long as the horizon that one of both lacks do not count. Cost: .1 ms a node in the
+  /// plane.
+  template <int dim>
+  std::optional<Recognised<dim>> recognise(const GivenBonds<dim> &given);
 } // namespace plumbline::meshfree

@@ -10,16 +10,15 @@ namespace plumbline::meshfree
   namespace
   {
     template <int dim>
-    void divide(Bond<dim> &bond, const Kernel<dim> &kernel, double volume, std::size_t line)
+    void divide(Bond<dim> &bond, const Kernel<dim> &kernel, double volume, const std::string &place)
     {
       if (bond.weight == 0)
         return;
       const double factor = volume * radial_value(kernel, bond);
       if (factor == 0 || !std::isfinite(factor))
-        throw InputError("the kernel is " + base::to_text(factor, 4) + " at a bond (line " +
-                         std::to_string(line) + ") of length " +
-                         base::to_text(bond.kernel_point.norm(), 6) + ", horizon " +
-                         base::to_text(kernel.horizon(), 6) +
+        throw InputError("the kernel is " + base::to_text(factor, 4) + " at a bond (" + place +
+                         ") of length " + base::to_text(bond.kernel_point.norm(), 6) +
+                         ", horizon " + base::to_text(kernel.horizon(), 6) +
                          ": its stiffness gives no weight; leave the bond out, or give weights");
       bond.weight /= factor;
     }
@@ -40,25 +39,21 @@ namespace plumbline::meshfree
     throw InputError(key + " = '" + word + "' is not known; choose one of " + all);
   }
 
-  void to_weights(BondValues values, const Kernel<2> &kernel, GivenWeights &given)
+  template <int dim>
+  void to_weights(BondValues values, const Kernel<dim> &kernel, GivenWeights<dim> &given)
   {
     if (values == BondValues::weights)
       return;
+    const auto place = [&](std::size_t line)
+    { return given.given.unit + " " + std::to_string(line); };
     for (std::size_t i = 0; i < given.given.families.size(); ++i)
       for (std::size_t k = 0; k < given.given.families[i].bonds.size(); ++k)
         divide(given.given.families[i].bonds[k], kernel, factor_of(values, given.volumes[i]),
-               given.given.lines[i][k]);
-    for (CollarBond &one : given.given.of_collar)
-      divide(one.bond, kernel, factor_of(values, given.volumes[one.node]), one.line);
+               place(given.given.lines[i][k]));
+    for (CollarBond<dim> &one : given.given.of_collar)
+      divide(one.bond, kernel, factor_of(values, given.volumes[one.node]), place(one.line));
   }
 
-  void to_weights(BondValues values, const Kernel<3> &kernel, WeightsInSpace &given)
-  {
-    if (values == BondValues::weights)
-      return;
-    for (std::size_t f = 0; f < given.families.size(); ++f)
-      for (std::size_t k = 0; k < given.families[f].bonds.size(); ++k)
-        divide(given.families[f].bonds[k], kernel, factor_of(values, given.volumes[given.free[f]]),
-               given.lines[f][k]);
-  }
+  template void to_weights(BondValues, const Kernel<2> &, GivenWeights<2> &);
+  template void to_weights(BondValues, const Kernel<3> &, GivenWeights<3> &);
 } // namespace plumbline::meshfree

@@ -2,7 +2,6 @@
 
 #include "base/choice.h"
 #include "meshfree/check/findings.h"
-#include "meshfree/check/weights_in_space.h"
 
 // What other codes keep of their bonds, made into the weights w of
 //   L u_i = -Σ C(q) (u_j - u_i) w,  C(q) = c(|q|) for scalars, c(|q|) q⊗q/|q|² for solids.
@@ -21,8 +20,8 @@ namespace plumbline::meshfree
   /// Divide the values of all bonds by the kernel, and by the node's volume where they are forces.
   /// @pre they have been read as weights
   /// @throws InputError  a bond whose value is not 0 where the kernel is: it has no weight
-  void to_weights(BondValues values, const Kernel<2> &kernel, GivenWeights &given);
-  void to_weights(BondValues values, const Kernel<3> &kernel, WeightsInSpace &given);
+  template <int dim>
+  void to_weights(BondValues values, const Kernel<dim> &kernel, GivenWeights<dim> &given);
 } // namespace plumbline::meshfree
 
 namespace plumbline::base

@@ -14,7 +14,8 @@ namespace plumbline::meshfree
     return static_cast<double>(n_bonds) >= nearly_always * static_cast<double>(n_pairs);
   }
 
-  BulkBonds::BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing)
+  BulkBonds::BulkBonds(const GivenWeights<2> &given, const std::vector<char> &is_bulk,
+                       double spacing)
       : spacing_(spacing)
   {
     constexpr std::size_t repeats = 2; // bonds of one vector on a lattice, at least
@@ -33,7 +34,7 @@ namespace plumbline::meshfree
     add_bonds(given, is_bulk, [](std::size_t, std::size_t) { return 1.; });
   }
 
-  BulkBonds BulkBonds::without(const Factor &factor, const GivenWeights &given,
+  BulkBonds BulkBonds::without(const Factor &factor, const GivenWeights<2> &given,
                                const std::vector<char> &is_bulk) const
   {
     BulkBonds result = *this;
@@ -50,7 +51,7 @@ namespace plumbline::meshfree
             std::llround(xi[1] / (same_vector * spacing_))};
   }
 
-  void BulkBonds::add_pairs(const GivenWeights &given, const std::vector<char> &is_bulk)
+  void BulkBonds::add_pairs(const GivenWeights<2> &given, const std::vector<char> &is_bulk)
   {
     const std::vector<Point<2>> &nodes = given.cells->nodes;
     std::vector<geometry::Box> boxes;
@@ -69,7 +70,7 @@ namespace plumbline::meshfree
     }
   }
 
-  void BulkBonds::add_bonds(const GivenWeights &given, const std::vector<char> &is_bulk,
+  void BulkBonds::add_bonds(const GivenWeights<2> &given, const std::vector<char> &is_bulk,
                             const Factor &factor)
   {
     std::map<Key, std::vector<double>> ratios;

@@ -28,10 +28,10 @@ namespace plumbline::meshfree
 
     /// @param is_bulk  of each family
     /// @param spacing  of the nodes [length]
-    BulkBonds(const GivenWeights &given, const std::vector<char> &is_bulk, double spacing);
+    BulkBonds(const GivenWeights<2> &given, const std::vector<char> &is_bulk, double spacing);
 
     /// The same bonds with a factor of their weights undone.
-    BulkBonds without(const Factor &factor, const GivenWeights &given,
+    BulkBonds without(const Factor &factor, const GivenWeights<2> &given,
                       const std::vector<char> &is_bulk) const;
 
     /// Null: there is no such bond in the bulk.
@@ -43,8 +43,8 @@ namespace plumbline::meshfree
     using Key = std::array<long long, 2>;
 
     Key key(const Point<2> &xi) const;
-    void add_pairs(const GivenWeights &given, const std::vector<char> &is_bulk);
-    void add_bonds(const GivenWeights &given, const std::vector<char> &is_bulk,
+    void add_pairs(const GivenWeights<2> &given, const std::vector<char> &is_bulk);
+    void add_bonds(const GivenWeights<2> &given, const std::vector<char> &is_bulk,
                    const Factor &factor);
 
     double spacing_, reach_ = 0;

@@ -6,10 +6,11 @@
 
 namespace plumbline::meshfree
 {
-  ExactFamilies::ExactFamilies(const GivenBonds &given)
+  template <int dim>
+  ExactFamilies<dim>::ExactFamilies(const GivenBonds<dim> &given)
       : is_exact_(given.families.size()), is_to_by_exact_(given.cells.size(), true)
   {
-    const MomentCheck check = check_moments(given.families, given.kernel);
+    const MomentCheck check = check_moments(given.families, given.kernel, 2);
     for (std::size_t i = 0; i < is_exact_.size(); ++i)
     {
       is_exact_[i] =
@@ -20,14 +21,16 @@ namespace plumbline::meshfree
     }
   }
 
-  void ExactFamilies::acquit(std::vector<Outlier> &outliers) const
+  template <int dim>
+  void ExactFamilies<dim>::acquit(std::vector<Outlier<dim>> &outliers) const
   {
     outliers.erase(std::remove_if(outliers.begin(), outliers.end(),
-                                  [this](const Outlier &one) { return is_right(one); }),
+                                  [this](const Outlier<dim> &one) { return is_right(one); }),
                    outliers.end());
   }
 
-  bool ExactFamilies::is_right(const Outlier &one) const
+  template <int dim>
+  bool ExactFamilies<dim>::is_right(const Outlier<dim> &one) const
   {
     switch (one.defect)
     {
@@ -42,4 +45,7 @@ namespace plumbline::meshfree
       return is_exact_[one.node];
     }
   }
+
+  template class ExactFamilies<2>;
+  template class ExactFamilies<3>;
 } // namespace plumbline::meshfree

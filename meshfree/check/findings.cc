@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "meshfree/check/bond_ramp.h"
 #include "meshfree/check/images.h"
+#include "meshfree/check/sizes.h"
 #include "meshfree/discretisations.h"
 
 #include <algorithm>
@@ -13,38 +14,41 @@ namespace plumbline::meshfree
   namespace
   {
     /// The families with the volumes of their neighbours.
-    std::vector<Family<2>> with_volumes(std::vector<Family<2>> families,
-                                        const std::vector<double> &volumes)
+    template <int dim>
+    std::vector<Family<dim>> with_volumes(std::vector<Family<dim>> families,
+                                          const std::vector<double> &volumes)
     {
-      for (Family<2> &family : families)
+      for (Family<dim> &family : families)
         for (std::size_t k = 0; k < family.bonds.size(); ++k)
           family.bonds[k].area = volumes[family.neighbours[k]];
       return families;
     }
 
     /// Volumes and weights that belong together, and the rule of ours that the weights are.
+    template <int dim>
     struct Recognition
     {
       std::vector<double> volumes; ///< that the weights were made with, as far as it is known
-      std::vector<Family<2>> families;
-      std::optional<Recognised> rule;
+      std::vector<Family<dim>> families;
+      std::optional<Recognised<dim>> rule;
     };
 
     /// Volumes that are wrong are mended first: were they left as they are, the weights to those
     /// nodes would seem wrong as well, though they may be right. If no rule of ours is recognised
     /// then, the weights may be made with the wrong volumes.
-    Recognition recognise_weights(const Findings &found, const problem::Problem<2> &problem)
+    template <int dim>
+    Recognition<dim> recognise_weights(const Findings<dim> &found, const Kernel<dim> &kernel)
     {
-      Recognition result;
+      Recognition<dim> result;
       std::vector<double> as_given = found.volumes;
       for (double &volume : as_given)
         volume /= found.volume_factor;
       using Volumes = const std::vector<double> *;
       for (const Volumes volumes : {&found.mended_volumes, static_cast<Volumes>(&as_given)})
       {
-        std::vector<Family<2>> families = with_volumes(found.given.families, *volumes);
-        auto rule =
-            recognise({families, problem.kernel, *problem.cells(), *volumes, found.precision});
+        std::vector<Family<dim>> families = with_volumes(found.given.families, *volumes);
+        auto rule = recognise(GivenBonds<dim>{
+            families, kernel, *found.cells, *volumes, found.precision, {}, found.lattice});
         if (!rule && !result.volumes.empty())
           break;
         result = {*volumes, std::move(families), std::move(rule)};
@@ -56,12 +60,13 @@ namespace plumbline::meshfree
 
     /// Adds outliers among bonds and nodes, except those that volumes explain: weights
     /// that were made with a volume that is wrong are all off by its factor.
-    void add_outliers(Findings &found, const std::vector<Outlier> &outliers)
+    template <int dim>
+    void add_outliers(Findings<dim> &found, const std::vector<Outlier<dim>> &outliers)
     {
-      const std::vector<Outlier> volumes = found.outliers;
-      for (const Outlier &one : outliers)
+      const std::vector<Outlier<dim>> volumes = found.outliers;
+      for (const Outlier<dim> &one : outliers)
         if (std::none_of(volumes.begin(), volumes.end(),
-                         [&](const Outlier &volume)
+                         [&](const Outlier<dim> &volume)
                          {
                            return (one.defect == Defect::neighbour && one.node == volume.node) ||
                                   (one.defect == Defect::weight && one.neighbour == volume.node);
@@ -70,14 +75,17 @@ namespace plumbline::meshfree
     }
 
     /// Weights as they stand, for what names their defects.
-    void find_causes(Findings &found, const problem::Problem<2> &problem,
+    template <int dim>
+    void find_causes(Findings<dim> &found, const Kernel<dim> &kernel,
                      const std::vector<std::string> &meant)
     {
-      const Recognition recognition = recognise_weights(found, problem);
-      const GivenBonds given{recognition.families, problem.kernel,  *problem.cells(),
-                             recognition.volumes,  found.precision, found.nodes.origin};
-      const Explanation explanation =
-          explain(given, recognition.rule, {meant, found.volume_factor, found.given.of_collar});
+      const Recognition<dim> recognition = recognise_weights(found, kernel);
+      const GivenBonds<dim> given{recognition.families, kernel,          *found.cells,
+                                  recognition.volumes,  found.precision, found.nodes.origin,
+                                  found.lattice};
+      const Explanation<dim> explanation =
+          explain(given, recognition.rule,
+                  Circumstances<dim>{meant, found.volume_factor, found.given.of_collar});
       found.causes = explanation.causes;
       found.is_mended = std::any_of(found.causes.begin(), found.causes.end(),
                                     [](const Cause &cause) { return cause.is_structural; });
@@ -88,7 +96,7 @@ namespace plumbline::meshfree
         const bool is_meant = std::find(meant.begin(), meant.end(), "FA") != meant.end();
         if (rule->is_full_area() && !is_meant && found.causes.empty() &&
             found.moments.typical() > found.precision.moments)
-          found.rule_remark = ramp_text(ramp_effects(given, given.families));
+          found.rule_remark = ramp_text(ramp_effects(given, given.families), measure<dim>());
       }
       if (found.is_mended)
         return; // single bonds cannot be judged yet
@@ -99,20 +107,21 @@ namespace plumbline::meshfree
     }
 
     /// Volumes against the areas of cells, which come before all that is relative to volumes.
-    void find_volumes(Findings &found, const problem::Problem<2> &problem,
+    template <int dim>
+    void find_volumes(Findings<dim> &found, const Kernel<dim> &kernel,
                       const std::vector<double> &uncut_areas, double spacing)
     {
-      found.precision =
-          Precision::of_files(found.nodes.rounding, found.given.weight_rounding,
-                              found.nodes.volume_rounding, spacing, problem.horizon());
-      const VolumeCheck volumes = check_volumes(
-          {found.given.families, problem.kernel, *problem.cells(), found.volumes, found.precision},
-          uncut_areas);
+      found.precision = Precision::of_files(found.nodes.rounding, found.given.weight_rounding,
+                                            found.nodes.volume_rounding, spacing, kernel.horizon());
+      const VolumeCheck<dim> volumes =
+          check_volumes(GivenBonds<dim>{found.given.families, kernel, *found.cells, found.volumes,
+                                        found.precision},
+                        uncut_areas);
       found.volume_factor = volumes.factor;
       found.outliers = volumes.outliers;
       found.mended_volumes = volumes.mended;
       found.given.families = with_volumes(std::move(found.given.families), found.mended_volumes);
-      for (CollarBond &one : found.given.of_collar)
+      for (CollarBond<dim> &one : found.given.of_collar)
         one.bond.area = found.mended_volumes[one.neighbour];
       double volume = 0, area = 0;
       for (std::size_t i = 0; i < found.cells->n_free; ++i)
@@ -124,25 +133,31 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  Findings find_defects(GivenWeights given, const problem::Problem<2> &problem,
-                        const std::vector<double> &uncut_areas, double spacing,
-                        const std::vector<std::string> &meant)
+  template <int dim>
+  Findings<dim> find_defects(GivenWeights<dim> given, const Kernel<dim> &kernel,
+                             const std::vector<double> &uncut_areas, double spacing,
+                             const std::vector<std::string> &meant)
   {
-    Findings found;
-    static_cast<GivenWeights &>(found) = std::move(given);
-    find_volumes(found, problem, uncut_areas, spacing);
-    const std::vector<Family<2>> &families = found.given.families;
-    found.moments = check_moments(families, problem.kernel);
-    found.elastic = elastic_ranges(families, problem.kernel);
-    found.weights = check_weights(families, problem.kernel, found.mended_volumes);
+    Findings<dim> found;
+    static_cast<GivenWeights<dim> &>(found) = std::move(given);
+    find_volumes(found, kernel, uncut_areas, spacing);
+    const std::vector<Family<dim>> &families = found.given.families;
+    found.moments = check_moments(families, kernel);
+    found.elastic = elastic_ranges(families, kernel);
+    found.weights = check_weights(families, kernel, found.mended_volumes);
     found.symmetry = check_symmetry(
-        found.nodes.box ? without_images(families, found.nodes, *found.cells) : families,
-        problem.kernel, found.mended_volumes);
-    find_causes(found, problem, meant);
+        found.nodes.box ? without_images(families, found.nodes, *found.cells) : families, kernel,
+        found.mended_volumes);
+    find_causes(found, kernel, meant);
+    return found;
+  }
+
+  void check_matrix(const problem::Problem<2> &problem, Findings<2> &found)
+  {
     try
     {
       const FamilySource<2> source = [&](std::size_t i, Family<2> &family)
-      { family = families[i]; };
+      { family = found.given.families[i]; };
       found.matrix = algebra::check_matrix(
           scattered_operator(source, problem, {0, found.cells->n_free}).rows.free);
     }
@@ -150,6 +165,10 @@ namespace plumbline::meshfree
     {
       found.matrix_failure = error.what(); // weights may be wrong enough for rows to be empty
     }
-    return found;
   }
+
+  template Findings<2> find_defects(GivenWeights<2>, const Kernel<2> &, const std::vector<double> &,
+                                    double, const std::vector<std::string> &);
+  template Findings<3> find_defects(GivenWeights<3>, const Kernel<3> &, const std::vector<double> &,
+                                    double, const std::vector<std::string> &);
 } // namespace plumbline::meshfree

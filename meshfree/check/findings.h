@@ -14,16 +14,19 @@
 namespace plumbline::meshfree
 {
   /// Weights of another code, in arrays: what find_defects takes.
+  template <int dim>
   struct GivenWeights
   {
-    GivenNodes nodes;
-    std::shared_ptr<const geometry::NodeCells<2>> cells; ///< of the nodes, by their places
-    GivenFamilies given;
+    GivenNodes<dim> nodes;
+    std::shared_ptr<const geometry::NodeCells<dim>> cells; ///< of the nodes, by their places
+    GivenFamilies<dim> given;
     std::vector<double> volumes; ///< of the nodes as given, numbered as the cells
+    double lattice = 0;          ///< spacing, see GivenBonds
   };
 
   /// All that is found of the weights of another code, whatever is solved with them.
-  struct Findings : GivenWeights
+  template <int dim>
+  struct Findings : GivenWeights<dim>
   {
     std::vector<double> mended_volumes; ///< as the cells' areas tell, numbered as the cells
     double volume_factor = 1;           ///< of the volumes, see VolumeCheck
@@ -33,6 +36,7 @@ namespace plumbline::meshfree
     std::vector<ElasticRange> elastic; ///< empty for scalar kernels
     WeightCheck weights;
     SymmetryCheck symmetry;
+    static constexpr bool has_matrix = dim == 2; ///< in space its factors would be too large
     algebra::MatrixCheck matrix;
     std::string matrix_failure; ///< empty: there is a matrix that can be factorised
     std::string rule; ///< of ours that the weights are, once their list is mended; empty: none
@@ -40,14 +44,19 @@ namespace plumbline::meshfree
     double rule_factor = 1;
     std::string rule_remark; ///< what else there is to say of the rule
     std::vector<Cause> causes;
-    std::vector<Outlier> outliers; ///< volumes first
+    std::vector<Outlier<dim>> outliers; ///< volumes first
   };
 
-  /// @param problem      on the cells of the nodes
-  /// @param uncut_areas  of the nodes' cells before Ω cuts them [length²]
+  /// All but the matrix.
+  /// @param uncut_areas  of the nodes' cells before Ω cuts them [length^dim]
   /// @param spacing      of the nodes [length]
   /// @param meant        names of the rules that the weights are meant to be; empty: not known
-  Findings find_defects(GivenWeights given, const problem::Problem<2> &problem,
-                        const std::vector<double> &uncut_areas, double spacing,
-                        const std::vector<std::string> &meant);
+  template <int dim>
+  Findings<dim> find_defects(GivenWeights<dim> given, const Kernel<dim> &kernel,
+                             const std::vector<double> &uncut_areas, double spacing,
+                             const std::vector<std::string> &meant);
+
+  /// Adds what the matrix of these weights tells.
+  /// @param problem  on the cells of the nodes
+  void check_matrix(const problem::Problem<2> &problem, Findings<2> &found);
 } // namespace plumbline::meshfree

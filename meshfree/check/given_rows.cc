@@ -6,7 +6,8 @@
 
 namespace plumbline::meshfree
 {
-  NodeIndex::NodeIndex(const GivenNodes &nodes, const geometry::NodeCells<2> &cells)
+  template <int dim>
+  NodeIndex::NodeIndex(const GivenNodes<dim> &nodes, const geometry::NodeCells<dim> &cells)
   {
     for (unsigned int k = 0; k < cells.size(); ++k)
       node_of_id_.emplace(nodes.id[cells.source[k]], k); // images follow their nodes
@@ -30,13 +31,14 @@ namespace plumbline::meshfree
       double mean_length = 0;       ///< of the other bonds
     };
 
-    Fitness fitness(const std::vector<GivenRow> &rows, const Shift &shift, const NodeIndex &index,
-                    const geometry::NodeCells<2> &cells)
+    template <int dim>
+    Fitness fitness(const std::vector<GivenRow<dim>> &rows, const Shift &shift,
+                    const NodeIndex &index, const geometry::NodeCells<dim> &cells)
     {
       Fitness result;
       std::vector<bool> has_bonds(cells.n_free);
       std::size_t n_bonds = 0;
-      for (const GivenRow &row : rows)
+      for (const GivenRow<dim> &row : rows)
       {
         const auto i = index.find(row.i + shift[0]), j = index.find(row.j + shift[1]);
         if (!i || !j || *i == *j)
@@ -68,8 +70,9 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::string shifted_ids(const std::vector<GivenRow> &rows, const NodeIndex &index,
-                          const geometry::NodeCells<2> &cells)
+  template <int dim>
+  std::string shifted_ids(const std::vector<GivenRow<dim>> &rows, const NodeIndex &index,
+                          const geometry::NodeCells<dim> &cells)
   {
     constexpr double shorter = .999;
     const Fitness given = fitness(rows, {0, 0}, index, cells);
@@ -96,12 +99,14 @@ namespace plumbline::meshfree
            "one all bonds fit; count alike in both files";
   }
 
-  bool is_half_list(const std::vector<GivenRow> &rows, const NodeIndex &index, std::size_t n_free)
+  template <int dim>
+  bool is_half_list(const std::vector<GivenRow<dim>> &rows, const NodeIndex &index,
+                    std::size_t n_free)
   {
     constexpr std::size_t fewest = 20; // bonds that tell
     constexpr double nearly_none = .02;
     std::set<std::pair<unsigned int, unsigned int>> bonds;
-    for (const GivenRow &row : rows)
+    for (const GivenRow<dim> &row : rows)
     {
       const auto i = index.find(row.i), j = index.find(row.j);
       if (i && j && *i < n_free && *j < n_free)
@@ -114,4 +119,13 @@ namespace plumbline::meshfree
     return bonds.size() >= fewest &&
            static_cast<double>(n_paired) <= nearly_none * static_cast<double>(bonds.size());
   }
+
+  template NodeIndex::NodeIndex(const GivenNodes<2> &, const geometry::NodeCells<2> &);
+  template NodeIndex::NodeIndex(const GivenNodes<3> &, const geometry::NodeCells<3> &);
+  template std::string shifted_ids(const std::vector<GivenRow<2>> &, const NodeIndex &,
+                                   const geometry::NodeCells<2> &);
+  template std::string shifted_ids(const std::vector<GivenRow<3>> &, const NodeIndex &,
+                                   const geometry::NodeCells<3> &);
+  template bool is_half_list(const std::vector<GivenRow<2>> &, const NodeIndex &, std::size_t);
+  template bool is_half_list(const std::vector<GivenRow<3>> &, const NodeIndex &, std::size_t);
 } // namespace plumbline::meshfree

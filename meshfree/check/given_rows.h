@@ -5,11 +5,12 @@
 namespace plumbline::meshfree
 {
   /// A bond as it stands in the file.
+  template <int dim>
   struct GivenRow
   {
     std::int64_t i = 0, j = 0; ///< ids
     double weight = 0;         ///< [length^2]
-    std::optional<Point<2>> kernel_point;
+    std::optional<Point<dim>> kernel_point;
     std::size_t line = 0;
   };
 
@@ -17,7 +18,8 @@ namespace plumbline::meshfree
   class NodeIndex
   {
   public:
-    NodeIndex(const GivenNodes &nodes, const geometry::NodeCells<2> &cells);
+    template <int dim>
+    NodeIndex(const GivenNodes<dim> &nodes, const geometry::NodeCells<dim> &cells);
     std::optional<unsigned int> find(std::int64_t id) const;
 
   private:
@@ -28,9 +30,12 @@ namespace plumbline::meshfree
   /// the other from 1: with the ids moved every bond is one between two nodes, all free nodes have
   /// bonds, and the bonds are shorter, all of which fails as they stand.
   /// @return  a sentence; empty: they are not
-  std::string shifted_ids(const std::vector<GivenRow> &rows, const NodeIndex &index,
-                          const geometry::NodeCells<2> &cells);
+  template <int dim>
+  std::string shifted_ids(const std::vector<GivenRow<dim>> &rows, const NodeIndex &index,
+                          const geometry::NodeCells<dim> &cells);
 
   /// Whether nearly no pair of free nodes has bonds both ways.
-  bool is_half_list(const std::vector<GivenRow> &rows, const NodeIndex &index, std::size_t n_free);
+  template <int dim>
+  bool is_half_list(const std::vector<GivenRow<dim>> &rows, const NodeIndex &index,
+                    std::size_t n_free);
 } // namespace plumbline::meshfree

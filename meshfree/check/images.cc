@@ -7,19 +7,27 @@
 
 namespace plumbline::meshfree
 {
-  void add_images(const geometry::Mesh &mesh, GivenNodes &nodes)
+  namespace
   {
-    const geometry::CellLocator locator(mesh);
-    const std::size_t n = nodes.size();
-    nodes.original.resize(n);
-    std::iota(nodes.original.begin(), nodes.original.end(), 0);
-    for (const int a : {-1, 0, 1})
-      for (const int b : {-1, 0, 1})
-        for (std::size_t k = 0; k < n && (a != 0 || b != 0); ++k)
+    /// Adds the images in neighbouring boxes for which there is a place.
+    template <int dim, class HasPlace>
+    void add_all_images(const HasPlace &has_place, GivenNodes<dim> &nodes)
+    {
+      const std::size_t n = nodes.size();
+      nodes.original.resize(n);
+      std::iota(nodes.original.begin(), nodes.original.end(), 0);
+      int n_boxes = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_boxes *= 3;
+      for (int box = 0; box < n_boxes; ++box) // -1, 0, 1 along each axis, the last fastest
+      {
+        Point<dim> moved;
+        for (int d = dim - 1, rest = box; d >= 0; --d, rest /= 3)
+          moved[d] = (rest % 3 - 1) * nodes.box->side(d);
+        for (std::size_t k = 0; k < n && moved.square() > 0; ++k)
         {
-          const Point<2> image(nodes.places[k][0] + a * nodes.box->side(0),
-                               nodes.places[k][1] + b * nodes.box->side(1));
-          if (!locator.find(image))
+          const Point<dim> image = nodes.places[k] + dealii::Tensor<1, dim>(moved);
+          if (!has_place(image))
             continue;
           ++nodes.n_images;
           nodes.original.push_back(k);
@@ -28,16 +36,40 @@ namespace plumbline::meshfree
           nodes.volume.push_back(nodes.volume[k]);
           nodes.line.push_back(nodes.line[k]);
         }
+      }
+    }
+  } // namespace
+
+  void add_images(const geometry::Mesh &mesh, GivenNodes<2> &nodes)
+  {
+    const geometry::CellLocator locator(mesh);
+    add_all_images<2>([&](const Point<2> &x) { return locator.find(x).has_value(); }, nodes);
   }
 
-  NearestImages::NearestImages(const GivenNodes &nodes, const geometry::NodeCells<2> &cells)
+  void add_images(double width, GivenNodes<3> &nodes)
+  {
+    add_all_images<3>(
+        [&](const Point<3> &x)
+        {
+          for (unsigned int d = 0; d < 3; ++d)
+            if (x[d] < nodes.box->lower[d] - width || x[d] > nodes.box->upper[d] + width)
+              return false;
+          return true;
+        },
+        nodes);
+  }
+
+  template <int dim>
+  NearestImages<dim>::NearestImages(const GivenNodes<dim> &nodes,
+                                    const geometry::NodeCells<dim> &cells)
       : cells_(cells), images_(cells.n_free)
   {
     for (unsigned int cell = 0; cell < cells.size(); ++cell)
       images_[nodes.original[cells.source[cell]]].push_back(cell);
   }
 
-  unsigned int NearestImages::nearest(unsigned int j, unsigned int i) const
+  template <int dim>
+  unsigned int NearestImages<dim>::nearest(unsigned int j, unsigned int i) const
   {
     const auto distance = [&](unsigned int cell)
     { return (cells_.nodes[cell] - cells_.nodes[i]).norm_square(); };
@@ -46,15 +78,16 @@ namespace plumbline::meshfree
                              { return distance(a) < distance(b); });
   }
 
-  std::vector<Family<2>> without_images(const std::vector<Family<2>> &families,
-                                        const GivenNodes &nodes,
-                                        const geometry::NodeCells<2> &cells)
+  template <int dim>
+  std::vector<Family<dim>> without_images(const std::vector<Family<dim>> &families,
+                                          const GivenNodes<dim> &nodes,
+                                          const geometry::NodeCells<dim> &cells)
   {
-    std::vector<Family<2>> result(families.size());
+    std::vector<Family<dim>> result(families.size());
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < families.size(); ++i)
     {
-      const Family<2> &family = families[i];
+      const Family<dim> &family = families[i];
       const auto node = [&](std::size_t k)
       { return static_cast<unsigned int>(nodes.original[cells.source[family.neighbours[k]]]); };
       order.resize(family.bonds.size());
@@ -70,17 +103,18 @@ namespace plumbline::meshfree
     return result;
   }
 
-  std::vector<std::size_t> crossing_bonds(const std::vector<Family<2>> &families,
-                                          const GivenNodes &nodes,
-                                          const geometry::NodeCells<2> &cells)
+  template <int dim>
+  std::vector<std::size_t> crossing_bonds(const std::vector<Family<dim>> &families,
+                                          const GivenNodes<dim> &nodes,
+                                          const geometry::NodeCells<dim> &cells)
   {
-    std::vector<std::size_t> result(2);
-    for (const Family<2> &family : families)
+    std::vector<std::size_t> result(dim);
+    for (const Family<dim> &family : families)
       for (const unsigned int cell : family.neighbours)
       {
         const std::size_t k = cells.source[cell];
-        const Point<2> moved(nodes.places[k] - nodes.places[nodes.original[k]]);
-        for (unsigned int d = 0; d < 2; ++d)
+        const Point<dim> moved(nodes.places[k] - nodes.places[nodes.original[k]]);
+        for (unsigned int d = 0; d < dim; ++d)
           result[d] += nodes.box->crosses(moved, d) ? 1 : 0;
       }
     return result;
@@ -98,4 +132,19 @@ namespace plumbline::meshfree
                               "the bonds across these sides, or, where they are free surfaces, "
                               "do not check with a periodic boundary";
   }
+
+  template class NearestImages<2>;
+  template class NearestImages<3>;
+  template std::vector<Family<2>> without_images(const std::vector<Family<2>> &,
+                                                 const GivenNodes<2> &,
+                                                 const geometry::NodeCells<2> &);
+  template std::vector<Family<3>> without_images(const std::vector<Family<3>> &,
+                                                 const GivenNodes<3> &,
+                                                 const geometry::NodeCells<3> &);
+  template std::vector<std::size_t> crossing_bonds(const std::vector<Family<2>> &,
+                                                   const GivenNodes<2> &,
+                                                   const geometry::NodeCells<2> &);
+  template std::vector<std::size_t> crossing_bonds(const std::vector<Family<3>> &,
+                                                   const GivenNodes<3> &,
+                                                   const geometry::NodeCells<3> &);
 } // namespace plumbline::meshfree

@@ -69,7 +69,8 @@ namespace plumbline::meshfree
     return true;
   }
 
-  LengthProfile length_profile(const GivenBonds &given, VolumeOf volume)
+  template <int dim>
+  LengthProfile length_profile(const GivenBonds<dim> &given, VolumeOf volume)
   {
     constexpr std::size_t fewest = 30; // bonds of a bin
     constexpr double width = .1;       // in sizes
@@ -78,7 +79,7 @@ namespace plumbline::meshfree
     for (std::size_t i = 0; i < given.families.size(); ++i)
       for (std::size_t k = 0; k < given.families[i].bonds.size(); ++k)
       {
-        const Bond<2> &bond = given.families[i].bonds[k];
+        const Bond<dim> &bond = given.families[i].bonds[k];
         const double length = bond.xi.norm();
         const std::size_t node = volume == VolumeOf::node ? i : given.families[i].neighbours[k];
         if (length <= longest)
@@ -100,4 +101,7 @@ namespace plumbline::meshfree
       profile.bins.push_back(bin_of(first, samples.end()));
     return profile;
   }
+
+  template LengthProfile length_profile(const GivenBonds<2> &, VolumeOf);
+  template LengthProfile length_profile(const GivenBonds<3> &, VolumeOf);
 } // namespace plumbline::meshfree

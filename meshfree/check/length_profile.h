@@ -34,5 +34,6 @@ namespace plumbline::meshfree
     node ///< that the bond is of
   };
 
-  LengthProfile length_profile(const GivenBonds &given, VolumeOf volume = VolumeOf::neighbour);
+  template <int dim>
+  LengthProfile length_profile(const GivenBonds<dim> &given, VolumeOf volume = VolumeOf::neighbour);
 } // namespace plumbline::meshfree

@@ -2,6 +2,7 @@
 
 #include "meshfree/check/bond_check.h"
 #include "meshfree/check/bond_profile.h"
+#include "meshfree/check/sizes.h"
 #include "meshfree/rules/moments.h"
 
 #include <algorithm>
@@ -13,21 +14,23 @@ namespace plumbline::meshfree
   namespace
   {
     /// One moment: of the weights alone (degree 0), or of w C_ab ξ^α.
+    template <int dim>
     struct Component
     {
       unsigned int degree;
-      Exponents<2> alpha;
+      Exponents<dim> alpha;
       unsigned int a, b;
       double size; ///< of ∫ |C| |ξ|^degree, or the ball
     };
 
-    std::vector<Component> all_components(const Kernel<2> &kernel)
+    template <int dim>
+    std::vector<Component<dim>> all_components(const Kernel<dim> &kernel)
     {
-      const double ball = M_PI * kernel.horizon() * kernel.horizon();
-      std::vector<Component> result{{0, {0, 0}, 0, 0, ball}};
+      const double ball = ball_volume<dim>(kernel.horizon());
+      std::vector<Component<dim>> result{{0, {}, 0, 0, ball}};
       for (const unsigned int degree : {1U, 2U})
-        for (const Exponents<2> &alpha :
-             exponents<2>(static_cast<int>(degree), static_cast<int>(degree)))
+        for (const Exponents<dim> &alpha :
+             exponents<dim>(static_cast<int>(degree), static_cast<int>(degree)))
           for (unsigned int a = 0; a < kernel.n_components(); ++a)
             for (unsigned int b = a; b < kernel.n_components(); ++b)
               result.push_back(
@@ -36,12 +39,15 @@ namespace plumbline::meshfree
     }
 
     /// What a weight of 1 adds to a moment.
-    double share(const Kernel<2> &kernel, const Bond<2> &bond, const Component &c)
+    template <int dim>
+    double share(const Kernel<dim> &kernel, const Bond<dim> &bond, const Component<dim> &c)
     {
       if (c.degree == 0)
         return 1 / c.size;
-      return kernel_value(kernel, bond, c.a, c.b) * std::pow(bond.xi[0], c.alpha[0]) *
-             std::pow(bond.xi[1], c.alpha[1]) / c.size;
+      double value = kernel_value(kernel, bond, c.a, c.b) / c.size;
+      for (unsigned int d = 0; d < dim; ++d)
+        value *= std::pow(bond.xi[d], c.alpha[d]);
+      return value;
     }
 
     using Vector = std::vector<double>;
@@ -72,22 +78,23 @@ namespace plumbline::meshfree
     }
 
     /// The moments of all nodes.
+    template <int dim>
     struct AllMoments
     {
-      std::vector<Component> components;
+      std::vector<Component<dim>> components;
       std::vector<Vector> values; ///< shape (n_components, n_nodes)
       std::vector<Spread> spreads;
       double floor; ///< rounding of the files
 
-      explicit AllMoments(const GivenBonds &given)
+      explicit AllMoments(const GivenBonds<dim> &given)
           : components(all_components(given.kernel)),
             floor(std::max(given.precision.weight, given.precision.moments))
       {
-        for (const Component &component : components)
+        for (const Component<dim> &component : components)
         {
           Vector own(given.families.size());
           for (std::size_t i = 0; i < own.size(); ++i)
-            for (const Bond<2> &bond : given.families[i].bonds)
+            for (const Bond<dim> &bond : given.families[i].bonds)
               if (component.degree > 0 || !is_at_horizon(given, bond.xi))
                 own[i] += bond.weight * share(given.kernel, bond, component);
           spreads.push_back(spread_of(own));
@@ -108,16 +115,19 @@ namespace plumbline::meshfree
     };
 
     /// Make it about the pair whose weight alone explains the residual, if there is one such.
-    void explain(const GivenBonds &given, const AllMoments &moments, const Vector &residual,
-                 const Pair *first, const Pair *last, Outlier &outlier)
+    template <int dim>
+    void explain(const GivenBonds<dim> &given, const AllMoments<dim> &moments,
+                 const Vector &residual, const Pair<dim> *first, const Pair<dim> *last,
+                 Outlier<dim> &outlier)
     {
       constexpr double explained = .05, apart = 3;
       double best = std::numeric_limits<double>::infinity(), next = best, best_change = 0;
-      const Pair *at = nullptr;
-      for (const Pair *pair = first; pair != last; ++pair)
+      const Pair<dim> *at = nullptr;
+      for (const Pair<dim> *pair = first; pair != last; ++pair)
       {
-        const Bond<2> bond =
-            pair->bond != Outlier::none ? bond_of(given, *pair) : Bond<2>{pair->xi, 0, pair->xi, 0};
+        const Bond<dim> bond = pair->bond != Outlier<dim>::none
+                                   ? bond_of(given, *pair)
+                                   : Bond<dim>{pair->xi, 0, pair->xi, 0};
         Vector direction;
         for (std::size_t c = 0; c < residual.size(); ++c)
           direction.push_back(share(given.kernel, bond, moments.components[c]) /
@@ -134,23 +144,25 @@ namespace plumbline::meshfree
       }
       if (!at || best > std::max(1., explained * norm(residual)) || next <= apart * best)
         return;
-      outlier.defect = at->bond == Outlier::none ? Defect::missing : Defect::weight;
+      outlier.defect = at->bond == Outlier<dim>::none ? Defect::missing : Defect::weight;
       outlier.neighbour = at->neighbour;
       outlier.bond = at->bond;
-      outlier.found = at->bond == Outlier::none ? 0 : bond_of(given, *at).weight;
+      outlier.found = at->bond == Outlier<dim>::none ? 0 : bond_of(given, *at).weight;
       outlier.expected = outlier.found - best_change;
     }
   } // namespace
 
-  std::vector<Outlier> find_moment_outliers(const GivenBonds &given, const std::vector<Pair> &pairs)
+  template <int dim>
+  std::vector<Outlier<dim>> find_moment_outliers(const GivenBonds<dim> &given,
+                                                 const std::vector<Pair<dim>> &pairs)
   {
-    const AllMoments moments(given);
-    std::vector<Outlier> outliers;
-    const Pair *first = pairs.data(), *const end = first + pairs.size(); // node by node
+    const AllMoments<dim> moments(given);
+    std::vector<Outlier<dim>> outliers;
+    const Pair<dim> *first = pairs.data(), *const end = first + pairs.size(); // node by node
     for (std::size_t i = 0; i < given.families.size(); ++i)
     {
-      const Pair *const last =
-          std::find_if(first, end, [i](const Pair &pair) { return pair.node != i; });
+      const Pair<dim> *const last =
+          std::find_if(first, end, [i](const Pair<dim> &pair) { return pair.node != i; });
       const Vector residual = moments.residual(i);
       const std::size_t worst = static_cast<std::size_t>(
           std::max_element(residual.begin(), residual.end(),
@@ -158,7 +170,7 @@ namespace plumbline::meshfree
           residual.begin());
       if (std::abs(residual[worst]) > 1)
       {
-        Outlier one{Defect::moments, i};
+        Outlier<dim> one{Defect::moments, i};
         one.distance = std::abs(residual[worst]);
         one.degree = moments.components[worst].degree;
         one.found = moments.values[worst][i];
@@ -170,4 +182,9 @@ namespace plumbline::meshfree
     }
     return outliers;
   }
+
+  template std::vector<Outlier<2>> find_moment_outliers(const GivenBonds<2> &,
+                                                        const std::vector<Pair<2>> &);
+  template std::vector<Outlier<3>> find_moment_outliers(const GivenBonds<3> &,
+                                                        const std::vector<Pair<3>> &);
 } // namespace plumbline::meshfree

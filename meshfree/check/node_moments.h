@@ -8,6 +8,7 @@ namespace plumbline::meshfree
   /// of the other nodes, and the one bond of each whose weight explains it, if one does; else the
   /// moments are what is named.
   /// @param pairs  from all_pairs
-  std::vector<Outlier> find_moment_outliers(const GivenBonds &given,
-                                            const std::vector<Pair> &pairs);
+  template <int dim>
+  std::vector<Outlier<dim>> find_moment_outliers(const GivenBonds<dim> &given,
+                                                 const std::vector<Pair<dim>> &pairs);
 } // namespace plumbline::meshfree

@@ -24,6 +24,8 @@ namespace plumbline::meshfree
   /// @param cells  of the nodes, where source is the index into them
   /// @throws InputError  unknown ids, a bond of a node with itself or given twice, a free node
   /// without bonds (but in half lists); ids that are off those of the nodes by one are told as such
-  GivenFamilies families_of_rows(const std::vector<GivenRow> &given, const GivenNodes &nodes,
-                                 const geometry::NodeCells<2> &cells, const RowSource &source);
+  template <int dim>
+  GivenFamilies<dim>
+  families_of_rows(const std::vector<GivenRow<dim>> &given, const GivenNodes<dim> &nodes,
+                   const geometry::NodeCells<dim> &cells, const RowSource &source);
 } // namespace plumbline::meshfree

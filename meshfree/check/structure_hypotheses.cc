@@ -10,13 +10,14 @@
 
 namespace plumbline::meshfree
 {
-  std::optional<Mend> all_zero(const Evidence &evidence)
+  template <int dim>
+  std::optional<Mend<dim>> all_zero(const Evidence<dim> &evidence)
   {
-    for (const Family<2> &family : evidence.given.families)
-      for (const Bond<2> &bond : family.bonds)
+    for (const Family<dim> &family : evidence.given.families)
+      for (const Bond<dim> &bond : family.bonds)
         if (bond.weight != 0)
           return {};
-    Mend mend{{"all zero", "all weights are zero"}, [](std::vector<Family<2>> &) {}};
+    Mend<dim> mend{{"all zero", "all weights are zero"}, [](std::vector<Family<dim>> &) {}};
     mend.cause.factor = 0;
     mend.cause.is_structural = true;
     mend.need = Need::nothing;
@@ -27,12 +28,13 @@ namespace plumbline::meshfree
   namespace
   {
     /// Weights over volumes at the lengths of bonds that are there.
+    template <int dim>
     class Ratios
     {
     public:
-      Ratios(const GivenBonds &given, const std::vector<Family<2>> &families)
+      Ratios(const GivenBonds<dim> &given, const std::vector<Family<dim>> &families)
       {
-        for (const Family<2> &family : families)
+        for (const Family<dim> &family : families)
           for (std::size_t k = 0; k < family.bonds.size(); ++k)
             samples_.emplace_back(family.bonds[k].xi.norm(),
                                   family.bonds[k].weight / given.volumes[family.neighbours[k]]);
@@ -58,15 +60,8 @@ namespace plumbline::meshfree
       std::vector<std::pair<double, double>> samples_;
     };
 
-    const Bond<2> *find_bond(const Family<2> &family, std::size_t j)
-    {
-      const auto at = std::lower_bound(family.neighbours.begin(), family.neighbours.end(), j);
-      return at != family.neighbours.end() && *at == j
-                 ? &family.bonds[static_cast<std::size_t>(at - family.neighbours.begin())]
-                 : nullptr;
-    }
-
-    void add_bond(Family<2> &family, std::size_t j, const Bond<2> &bond)
+    template <int dim>
+    void add_bond(Family<dim> &family, std::size_t j, const Bond<dim> &bond)
     {
       const auto at = std::lower_bound(family.neighbours.begin(), family.neighbours.end(), j);
       family.bonds.insert(family.bonds.begin() + (at - family.neighbours.begin()), bond);
@@ -74,21 +69,23 @@ namespace plumbline::meshfree
     }
 
     /// The bond from its other end, with the volume there.
-    Bond<2> reversed(const Bond<2> &bond, double volume_here, double volume_there)
+    template <int dim>
+    Bond<dim> reversed(const Bond<dim> &bond, double volume_here, double volume_there)
     {
-      const Point<2> none;
-      return {none - dealii::Tensor<1, 2>(bond.xi), bond.weight * volume_here / volume_there,
-              none - dealii::Tensor<1, 2>(bond.kernel_point), volume_here};
+      const Point<dim> none;
+      return {none - dealii::Tensor<1, dim>(bond.xi), bond.weight * volume_here / volume_there,
+              none - dealii::Tensor<1, dim>(bond.kernel_point), volume_here};
     }
 
     /// Adds the other one of each pair: from the bond that is there, else, where a neighbour in the
     /// collar has none either, with the weight that bonds of that length have.
-    void complete_pairs(const GivenBonds &given, const std::vector<CollarBond> &of_collar,
-                        std::vector<Family<2>> &families)
+    template <int dim>
+    void complete_pairs(const GivenBonds<dim> &given, const std::vector<CollarBond<dim>> &of_collar,
+                        std::vector<Family<dim>> &families)
     {
       constexpr double rounding = 1e-9;
-      const std::vector<Family<2>> before = families;
-      const auto add_reversed = [&](std::size_t i, std::size_t j, const Bond<2> &bond)
+      const std::vector<Family<dim>> before = families;
+      const auto add_reversed = [&](std::size_t i, std::size_t j, const Bond<dim> &bond)
       {
         if (j < families.size() && !find_bond(families[j], i))
           add_bond(families[j], i, reversed(bond, given.volumes[i], given.volumes[j]));
@@ -96,12 +93,13 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < before.size(); ++i)
         for (std::size_t k = 0; k < before[i].bonds.size(); ++k)
           add_reversed(i, before[i].neighbours[k], before[i].bonds[k]);
-      for (const CollarBond &one : of_collar)
+      for (const CollarBond<dim> &one : of_collar)
         add_reversed(one.node, one.neighbour, one.bond);
       const Ratios ratios(given, before);
       const double longest = ratios.longest() * (1 + rounding) + 4 * given.precision.length;
-      for (const Pair &pair : all_pairs({families, given.kernel, given.cells, given.volumes}))
-        if (pair.bond == Outlier::none && pair.neighbour >= families.size() &&
+      for (const Pair<dim> &pair :
+           all_pairs(GivenBonds<dim>{families, given.kernel, given.cells, given.volumes}))
+        if (pair.bond == Outlier<dim>::none && pair.neighbour >= families.size() &&
             pair.xi.norm() <= longest)
           add_bond(families[pair.node], pair.neighbour,
                    {pair.xi, given.volumes[pair.neighbour] * ratios.at(pair.xi.norm()), pair.xi,
@@ -109,11 +107,12 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  std::optional<Mend> half_list(const Evidence &evidence)
+  template <int dim>
+  std::optional<Mend<dim>> half_list(const Evidence<dim> &evidence)
   {
     constexpr std::size_t fewest = 20;
     constexpr double nearly_none = .02;
-    const GivenBonds &given = evidence.given;
+    const GivenBonds<dim> &given = evidence.given;
     std::size_t n = 0, n_paired = 0;
     for (std::size_t i = 0; i < given.families.size(); ++i)
       for (const unsigned int j : given.families[i].neighbours)
@@ -124,14 +123,16 @@ namespace plumbline::meshfree
         }
     if (n < fewest || static_cast<double>(n_paired) > nearly_none * static_cast<double>(n))
       return {};
-    Mend mend{
+    Mend<dim> mend{
         {"half list",
          "each pair of nodes is listed only once (a half list): list each bond both from i "
          "to j and from j to i"},
         [&given_volumes = given.volumes, &kernel = given.kernel, &cells = given.cells,
          precision = given.precision,
-         &of_collar = evidence.circumstances.of_collar](std::vector<Family<2>> &families) {
-          complete_pairs({families, kernel, cells, given_volumes, precision}, of_collar, families);
+         &of_collar = evidence.circumstances.of_collar](std::vector<Family<dim>> &families)
+        {
+          complete_pairs(GivenBonds<dim>{families, kernel, cells, given_volumes, precision},
+                         of_collar, families);
         }};
     mend.cause.is_structural = true;
     mend.changes_rule = true;
@@ -183,7 +184,8 @@ namespace plumbline::meshfree
       bool is_own = false; ///< the scene's kernel fits as well
     };
 
-    BestProfile best_profile(const LengthProfile &profile, const Kernel<2> &kernel)
+    template <int dim>
+    BestProfile best_profile(const LengthProfile &profile, const Kernel<dim> &kernel)
     {
       constexpr double fits = .02; // of the largest: bins are up to a tenth of a node wide
       constexpr double rounding = 1e-9;
@@ -216,17 +218,19 @@ namespace plumbline::meshfree
                   : ", which is not the scene's kernel but another one: the weights already "
                     "contain a kernel or influence function, and the scene's kernel is applied in "
                     "addition") +
-             "; give volumes as weights";
+             "; give volumes as weights, or, if the values are w C, say so by --bonds-are "
+             "stiffness";
     }
   } // namespace
 
-  std::optional<Mend> kernel_in_weights(const Evidence &evidence)
+  template <int dim>
+  std::optional<Mend<dim>> kernel_in_weights(const Evidence<dim> &evidence)
   {
     constexpr std::size_t fewest = 3;
     constexpr double much = .25;      // more than weights that correct moments vary
     constexpr double very_much = .75; // of a profile that is not known
     constexpr double same = .06;      // of bonds of one length, with the slope within a bin
-    const GivenBonds &given = evidence.given;
+    const GivenBonds<dim> &given = evidence.given;
     if (evidence.rule)
       return {};
     const LengthProfile profile = length_profile(given);
@@ -237,44 +241,47 @@ namespace plumbline::meshfree
     if (best.name.empty() && !best.is_own && profile.variation() < very_much)
       return {};
     const double sign = profile.bins.front().ratio < 0 ? -1 : 1;
-    Mend mend{
-        {"kernel in the weights", kernel_text(profile, best)},
-        for_each_bond([&volumes = given.volumes, sign](Bond<2> &bond, std::size_t, std::size_t j)
-                      { bond.weight = sign * volumes[j]; })};
+    Mend<dim> mend{{"kernel in the weights", kernel_text(profile, best)},
+                   for_each_bond<dim>(
+                       [&volumes = given.volumes, sign](Bond<dim> &bond, std::size_t, std::size_t j)
+                       { bond.weight = sign * volumes[j]; })};
     mend.cause.is_structural = true;
     mend.changes_rule = true;
     return mend;
   }
 
-  std::optional<Mend> own_volume(const Evidence &evidence)
+  template <int dim>
+  std::optional<Mend<dim>> own_volume(const Evidence<dim> &evidence)
   {
     constexpr double apart = .01, much_less = .25;
-    const GivenBonds &given = evidence.given;
+    const GivenBonds<dim> &given = evidence.given;
     if (evidence.rule)
       return {};
     const double to_neighbour = length_profile(given).scatter(),
                  to_own = length_profile(given, VolumeOf::node).scatter();
     if (to_neighbour < apart || to_own > much_less * to_neighbour)
       return {};
-    Mend mend{{"own volume", "the weights are made with the volume of node i itself, not with that "
-                             "of its neighbour j"},
-              for_each_bond([&volumes = given.volumes](Bond<2> &bond, std::size_t i, std::size_t j)
-                            { bond.weight *= volumes[j] / volumes[i]; })};
+    Mend<dim> mend{
+        {"own volume", "the weights are made with the volume of node i itself, not with that "
+                       "of its neighbour j"},
+        for_each_bond<dim>([&volumes = given.volumes](Bond<dim> &bond, std::size_t i, std::size_t j)
+                           { bond.weight *= volumes[j] / volumes[i]; })};
     mend.cause.is_structural = true;
     mend.changes_rule = true;
     return mend;
   }
 
-  std::optional<Mend> missing_at_horizon(const Evidence &evidence)
+  template <int dim>
+  std::optional<Mend<dim>> missing_at_horizon(const Evidence<dim> &evidence)
   {
-    const GivenBonds &given = evidence.given;
+    const GivenBonds<dim> &given = evidence.given;
     if (!evidence.rule || !evidence.rule->is_full_area())
       return {};
     std::vector<std::pair<std::size_t, std::size_t>> missing;
     std::size_t n = 0;
     for (std::size_t i = 0; i < given.families.size(); ++i)
       for_both(given.families[i], evidence.rule->families[i],
-               [&](const Bond<2> *own, const Bond<2> *right, std::size_t j)
+               [&](const Bond<dim> *own, const Bond<dim> *right, std::size_t j)
                {
                  if (!right || !is_at_horizon(given, right->xi))
                    return;
@@ -285,22 +292,34 @@ namespace plumbline::meshfree
     if (missing.empty())
       return {};
     const bool are_all = missing.size() == n;
-    Mend mend{{"bonds at the horizon",
-               (are_all ? "all " : std::to_string(missing.size()) + " of ") + std::to_string(n) +
-                   " bonds as long as the horizon are left out" +
-                   (are_all ? ", r < horizon instead of r <= horizon" : ", as rounding decides")},
-              [missing, &nodes = given.cells.nodes,
-               &volumes = given.volumes](std::vector<Family<2>> &families)
-              {
-                const double ratio = common_ratio(families);
-                for (const auto &[i, j] : missing)
-                {
-                  const Point<2> xi(nodes[j] - nodes[i]);
-                  if (!find_bond(families[i], j))
-                    add_bond(families[i], j, {xi, ratio * volumes[j], xi, volumes[j]});
-                }
-              }};
+    Mend<dim> mend{
+        {"bonds at the horizon",
+         (are_all ? "all " : std::to_string(missing.size()) + " of ") + std::to_string(n) +
+             " bonds as long as the horizon are left out" +
+             (are_all ? ", r < horizon instead of r <= horizon" : ", as rounding decides")},
+        [missing, &nodes = given.cells.nodes,
+         &volumes = given.volumes](std::vector<Family<dim>> &families)
+        {
+          const double ratio = common_ratio(families);
+          for (const auto &[i, j] : missing)
+          {
+            const Point<dim> xi(nodes[j] - nodes[i]);
+            if (!find_bond(families[i], j))
+              add_bond(families[i], j, {xi, ratio * volumes[j], xi, volumes[j]});
+          }
+        }};
     mend.cause.is_own_error = are_all;
     return mend;
   }
+
+  template std::optional<Mend<2>> all_zero(const Evidence<2> &);
+  template std::optional<Mend<2>> half_list(const Evidence<2> &);
+  template std::optional<Mend<2>> kernel_in_weights(const Evidence<2> &);
+  template std::optional<Mend<2>> own_volume(const Evidence<2> &);
+  template std::optional<Mend<2>> missing_at_horizon(const Evidence<2> &);
+  template std::optional<Mend<3>> all_zero(const Evidence<3> &);
+  template std::optional<Mend<3>> half_list(const Evidence<3> &);
+  template std::optional<Mend<3>> kernel_in_weights(const Evidence<3> &);
+  template std::optional<Mend<3>> own_volume(const Evidence<3> &);
+  template std::optional<Mend<3>> missing_at_horizon(const Evidence<3> &);
 } // namespace plumbline::meshfree

@@ -23,7 +23,7 @@ namespace plumbline::meshfree
     }
 
     /// Sum over each family of the weights that bonds of the bulk would have times a function.
-    std::vector<double> sums(const GivenWeights &given, const BulkBonds &bulk,
+    std::vector<double> sums(const GivenWeights<2> &given, const BulkBonds &bulk,
                              const std::function<double(const Bond<2> &, double ratio)> &of)
     {
       std::vector<double> result(given.cells->size(), std::numeric_limits<double>::quiet_NaN());
@@ -38,7 +38,7 @@ namespace plumbline::meshfree
       return result;
     }
 
-    std::vector<FamilySize> sizes(const GivenWeights &given, const BulkBonds &bulk,
+    std::vector<FamilySize> sizes(const GivenWeights<2> &given, const BulkBonds &bulk,
                                   const std::vector<double> &visible, const Kernel<2> &kernel)
     {
       std::vector<double> whole = sums(given, bulk, [](const Bond<2> &, double) { return 1.; }),
@@ -70,7 +70,7 @@ namespace plumbline::meshfree
     }
 
     /// Sums of a method along both axes, relative to their medians in the bulk.
-    FamilySize axis_sums(const SurfaceCorrection &method, const GivenWeights &given,
+    FamilySize axis_sums(const SurfaceCorrection &method, const GivenWeights<2> &given,
                          const BulkBonds &bulk, const std::vector<char> &is_bulk,
                          const Kernel<2> &kernel)
     {
@@ -102,7 +102,7 @@ namespace plumbline::meshfree
     };
 
     /// Of families that are cut, or whose neighbour's is.
-    std::vector<Changed> changed_bonds(const GivenWeights &given, const BulkBonds &bulk,
+    std::vector<Changed> changed_bonds(const GivenWeights<2> &given, const BulkBonds &bulk,
                                        const std::vector<char> &is_cut)
     {
       std::vector<Changed> bonds;
@@ -145,7 +145,7 @@ namespace plumbline::meshfree
     return std::isfinite(result) ? result : 1;
   }
 
-  FoundCorrection find_correction(const GivenWeights &given, const BulkBonds &bulk,
+  FoundCorrection find_correction(const GivenWeights<2> &given, const BulkBonds &bulk,
                                   const std::vector<char> &is_cut, const std::vector<char> &is_bulk,
                                   const std::vector<double> &visible, const Kernel<2> &kernel)
   {

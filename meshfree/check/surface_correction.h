@@ -50,7 +50,7 @@ namespace plumbline::meshfree
   /// @param is_cut   of each node: its family is not a whole ball
   /// @param is_bulk  of each family
   /// @param visible  area of the visible part of each node's ball [length^2]
-  FoundCorrection find_correction(const GivenWeights &given, const BulkBonds &bulk,
+  FoundCorrection find_correction(const GivenWeights<2> &given, const BulkBonds &bulk,
                                   const std::vector<char> &is_cut, const std::vector<char> &is_bulk,
                                   const std::vector<double> &visible, const Kernel<2> &kernel);
 } // namespace plumbline::meshfree

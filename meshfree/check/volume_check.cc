@@ -58,7 +58,9 @@ namespace plumbline::meshfree
       Spread spread = {}; ///< of the ratios
     };
 
-    VolumeFit fit(const GivenBonds &given, const Values &areas, std::size_t first, std::size_t last)
+    template <int dim>
+    VolumeFit fit(const GivenBonds<dim> &given, const Values &areas, std::size_t first,
+                  std::size_t last)
     {
       constexpr double enough = 1. / 3;
       VolumeFit result{areas, {}};
@@ -83,9 +85,10 @@ namespace plumbline::meshfree
 
     /// Adds nodes [first, last) whose volume is an outlier.
     /// @param band_fits  a node that fits one of them is in no band; empty: there are none
-    void add_outliers(const GivenBonds &given, const VolumeFit &best,
+    template <int dim>
+    void add_outliers(const GivenBonds<dim> &given, const VolumeFit &best,
                       const std::vector<VolumeFit> &band_fits, std::size_t first, std::size_t last,
-                      std::vector<Outlier> &outliers)
+                      std::vector<Outlier<dim>> &outliers)
     {
       constexpr double band = .01; // what other ways to cut cells at a boundary hardly make
       const double floor = given.precision.volume, allowed = best.spread.allowed(floor);
@@ -103,7 +106,7 @@ namespace plumbline::meshfree
                         });
         if (!(off > allowed || is_in_band))
           continue;
-        Outlier one{Defect::volume, i};
+        Outlier<dim> one{Defect::volume, i};
         one.found = given.volumes[i];
         one.expected = best.middle * best.areas[i];
         one.distance = off > allowed ? off / allowed : off / band;
@@ -123,12 +126,13 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  VolumeCheck check_volumes(const GivenBonds &given, const Values &uncut_areas)
+  template <int dim>
+  VolumeCheck<dim> check_volumes(const GivenBonds<dim> &given, const Values &uncut_areas)
   {
-    const geometry::NodeCells<2> &cells = given.cells;
+    const geometry::NodeCells<dim> &cells = given.cells;
     const std::size_t n_free = given.families.size(), n = cells.size();
     const double floor = given.precision.volume;
-    VolumeCheck check;
+    VolumeCheck<dim> check;
     check.mended = given.volumes;
     for (const auto &[first, last] : {std::pair{std::size_t{0}, n_free}, std::pair{n_free, n}})
     {
@@ -165,11 +169,12 @@ namespace plumbline::meshfree
           check.mended[i] /= check.factor;
     }
     std::stable_sort(check.outliers.begin(), check.outliers.end(),
-                     [](const Outlier &a, const Outlier &b) { return a.distance > b.distance; });
+                     [](const Outlier<dim> &a, const Outlier<dim> &b)
+                     { return a.distance > b.distance; });
     return check;
   }
 
-  std::string unit_text(double factor)
+  std::string unit_text(double factor, int dim, double size)
   {
     struct Unit
     {
@@ -186,8 +191,11 @@ namespace plumbline::meshfree
                                             {1 / .0254, "inches for m"},
                                             {1 / .3048, "feet for m"},
                                             {12, "inches for feet"}}};
-    const double ratio = std::sqrt(factor);
-    std::string text = "as of a plate " + base::to_text(factor, 4) + " thick";
+    const double ratio = dim == 2 ? std::sqrt(factor) : std::cbrt(factor);
+    const std::string plate = "of a plate " + base::to_text(factor, 4) + " thick";
+    if (dim == 3 && std::abs(factor * size - 1) < same)
+      return "as areas h^2 in place of volumes h^3, h = " + base::to_text(size, 6);
+    std::string text = dim == 2 ? "as " + plate : "as in other units of length";
     for (const Unit &unit : units)
     {
       if (std::abs(ratio / unit.ratio - 1) < same)
@@ -195,9 +203,11 @@ namespace plumbline::meshfree
                unit.text;
       if (std::abs(ratio * unit.ratio - 1) < same)
         text = "as in units of length " + base::to_text(unit.ratio, 6) +
-               " times the scene's, not " + unit.text + ", or of a plate " +
-               base::to_text(factor, 4) + " thick";
+               " times the scene's, not " + unit.text + (dim == 2 ? ", or " + plate : "");
     }
     return text;
   }
+
+  template VolumeCheck<2> check_volumes(const GivenBonds<2> &, const std::vector<double> &);
+  template VolumeCheck<3> check_volumes(const GivenBonds<3> &, const std::vector<double> &);
 } // namespace plumbline::meshfree

@@ -5,13 +5,14 @@
 namespace plumbline::meshfree
 {
   /// What is wrong with the volumes of nodes: a factor that all carry, and outliers.
+  template <int dim>
   struct VolumeCheck
   {
     /// The volumes are the cells' areas times this: 1, or what a third of the free nodes share, to
     /// rounding, or the median where it is far outside of their spread.
     double factor = 1;
-    std::vector<Outlier> outliers; ///< Defect::volume, the largest distance first
-    std::vector<double> mended;    ///< as the cells' areas tell, shape (n_nodes) [length^2]
+    std::vector<Outlier<dim>> outliers; ///< Defect::volume, the largest distance first
+    std::vector<double> mended;         ///< as the cells' areas tell, shape (n_nodes) [length^dim]
   };
 
   /// Holds volumes against the areas of Voronoi cells, cut at the boundary of Ω or not, or against
@@ -21,9 +22,11 @@ namespace plumbline::meshfree
   /// area of their own, the latter only where three of five volumes are one number.
   /// @param given        the volumes are those of the file
   /// @param uncut_areas  of the Voronoi cells that the boundary of Ω does not cut
-  VolumeCheck check_volumes(const GivenBonds &given, const std::vector<double> &uncut_areas);
+  template <int dim>
+  VolumeCheck<dim> check_volumes(const GivenBonds<dim> &given,
+                                 const std::vector<double> &uncut_areas);
 
-  /// Of a factor of volumes or weights: "as if ...", the thickness of a plate or other units of
-  /// length.
-  std::string unit_text(double factor);
+  /// Of a factor of volumes: "as ...", the thickness of a plate or other units of length.
+  /// @param size  of a cell in space, whose areas may have been given for volumes [length]
+  std::string unit_text(double factor, int dim = 2, double size = 0);
 } // namespace plumbline::meshfree

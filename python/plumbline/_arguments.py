@@ -17,6 +17,8 @@ _PUBLIC = {"lattice_weights": "weights", "node_weights": "weights", "node_weight
            "matrix_in_space": "space.matrix", "solve_in_space": "space.solve", "moduli_json": "moduli",
            "moduli_arrays": "moduli_of_weights", "grade_arrays": "grade", "grade_files": "grade",
            "certified_names": "certified_problems", "certify_json": "certify", "study_json": "a study"}
+# former names of arguments, which are taken as well
+_ALIASES = {"check": {"box": "boxes", "meant": "rule"}, "weights": {"box": "boxes"}}
 _HINTS = {("Kernel", "E"): "for Young's modulus E give bulk_modulus = 2/3 E in plane strain, 5/8 E in plane stress",
           ("space.Kernel", "E"): "for Young's modulus E give bulk_modulus = 2/3 E"}
 
@@ -156,10 +158,13 @@ def _python(function):
     signature = inspect.signature(function)
     parameters = [_Parameter(one.name, "", None if one.default is one.empty else repr(one.default),
                              one.kind is one.KEYWORD_ONLY) for one in signature.parameters.values()]
+    aliases = _ALIASES.get(function.__name__, {})
     is_plain = all(one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY) for one in signature.parameters.values())
 
     @functools.wraps(function)
     def call(*args, **kwargs):
+        kwargs = {aliases.get(key, key) if aliases.get(key) not in kwargs else key: value
+                  for key, value in kwargs.items()}
         message = ""
         try:
             signature.bind(*args, **kwargs)

@@ -78,7 +78,7 @@ def _usual_h(nodes, boxes):
 
 
 class Findings(dict):
-    """The findings of check(): a dict with
+    """The findings of check() and of space.check(): a dict with
 
     passed      whether all requirements hold and nothing is inconsistent
     complaints  sentences: causes, outliers, requirements that do not hold
@@ -87,11 +87,29 @@ class Findings(dict):
     causes      dicts with name, text, factor: what is wrong with all weights
     outliers    dicts with node, neighbour, index (of the bond), found, expected, text
     moments     degrees 1 to 4 with worst, median and the defects of all free nodes
-    weights, symmetry, matrix, volume_factor, volume_defect, n_free, n_ignored_bonds
+    weights, symmetry, volume_factor, volume_defect, n_free, n_ignored_bonds, spacing
+    elastic     of solids least, median and largest of C1111, C1122, C1212, E, nu over the nodes
+    matrix      signs and eigenvalues; None in three dimensions
     body        None, or of a body with free surfaces or cracks a dict as in check.json: families
                 (interior, near surfaces, near cracks), correction, crossing, missing, different;
                 moments, weights, symmetry and matrix are those of the interior then
     """
+
+    _ONCE = {  # keys of former versions of space.check
+        "is_ac": lambda self: self["moments"]["second"]["value"] <= 1e-8,
+        "first_moments": lambda self: tuple(self["moments"]["degrees"][0]["worst"].values()),
+        "second_moments": lambda self: tuple(self["moments"]["second"].values()),
+        "median_moments": lambda self: self["moments"]["degrees"][1]["median"],
+        "imbalance": lambda self: self["symmetry"]["imbalance"],
+        "n_unpaired": lambda self: self["symmetry"]["n_unpaired"],
+        "n_bonds": lambda self: self["weights"]["n_bonds"],
+        "n_negative": lambda self: self["weights"]["n_negative"],
+    }
+
+    def __missing__(self, key):
+        if key not in self._ONCE:
+            raise KeyError(key)
+        return self._ONCE[key](self)
 
     @property
     def passed(self):
@@ -103,6 +121,10 @@ class Findings(dict):
 
     def _repr_pretty_(self, printer, _is_cycle):
         printer.text(str(self))
+
+
+def as_list(names):
+    return [names] if isinstance(names, str) else list(names)
 
 
 def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, h=None,
@@ -130,7 +152,6 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, exclude=None, points=None, 
 
     Returns Findings; print() shows its sentences, where nodes are numbered from 0.
     """
-    as_list = lambda names: [names] if isinstance(names, str) else list(names)
     return Findings(_core.check_arrays(nodes, volumes, i, j, w, kernel, boxes, exclude, points,
                                        h or 0., boundary_is_data, as_list(rule),
                                        as_list(require), bonds_are, boundary,

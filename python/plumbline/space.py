@@ -1,13 +1,13 @@
 """Three dimensions: kernels, weights of rules, problems on boxes of cubes, the check of weights."""
 from . import _core
-from ._checks import Weights
+from ._checks import Findings, Weights, as_list as _as_list
 from ._matrix import to_matrix as _to_matrix
 from ._core import SpaceKernel as Kernel, SpaceProblem as Problem, SpaceSolution as Solution
 
 __all__ = ["Kernel", "Problem", "Solution", "check", "matrix", "solve", "weights"]
 
 
-def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None):
+def weights(rule, kernel, h, *, nodes=None, volumes=None, boxes=None, exclude=None):
     """The bonds that a rule gives to every node of a lattice of cubes, or to scattered nodes.
 
     rule    a name ("FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC", "IPA-AC-R2", ...)
@@ -15,20 +15,21 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, box=None, exclude=None
     h       spacing of a lattice; with nodes the side of cubes that fill the box [length]
     nodes   shape (n, 3) [length], free in the box, constrained in a layer at least a horizon wide
     volumes  volumes of the nodes' cells, shape (n,) [length^3]; default: those of their Voronoi cells
-    box     the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of boxes; exclude is taken out of it
+    boxes   the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of them; exclude is taken out of it
+            (box is its former name)
 
     Returns Weights: w of shape (n_bonds,) [length^3], points and xi of shape (n_bonds, 3) [length],
     area (here the volume of the neighbour's cell or of its part in the ball); of a lattice offsets
     = xi / h, of scattered nodes i (free) and j, indices of nodes.
     """
     if nodes is not None:
-        if box is None:
-            raise _core.InputError("weights: nodes require box, the domain in which nodes are free, e.g. "
-                                   "box=((0, 0, 0), (1, 1, 1))")
-        made = _core.node_weights_in_space(rule, kernel, nodes, volumes, box, exclude, h)
+        if boxes is None:
+            raise _core.InputError("weights: nodes require boxes, the domain in which nodes are free, e.g. "
+                                   "boxes=((0, 0, 0), (1, 1, 1))")
+        made = _core.node_weights_in_space(rule, kernel, nodes, volumes, boxes, exclude, h)
         return Weights(made["i"], made["j"], made["w"], made["points"], made["xi"], made["area"])
-    if volumes is not None or box is not None or exclude is not None:
-        raise _core.InputError("weights: volumes, box and exclude apply to scattered nodes only; give nodes as well, or omit them")
+    if volumes is not None or boxes is not None or exclude is not None:
+        raise _core.InputError("weights: volumes, boxes and exclude apply to scattered nodes only; give nodes as well, or omit them")
     made = _core.lattice_weights(rule, kernel, h)
     return Weights(None, None, made["w"], made["points"], made["xi"], made["area"], made["offsets"])
 
@@ -49,26 +50,27 @@ def matrix(problem, method, h=None):
     return _to_matrix(_core.matrix_in_space(problem, method, h))
 
 
-def check(nodes, volumes, i, j, w, kernel, *, box, points=None, meant=(),
+def check(nodes, volumes, i, j, w, kernel, *, boxes, points=None, h=None, rule=(), require=("ac",),
           bonds_are="weights", boundary="constrained"):
-    """Check weights of L u_i = -sum C(points) (u_j - u_i) w over the bonds of node i.
+    """Check the weights of another code, as `plumbline check` does, from arrays.
 
-    nodes    shape (n, 3), in the box (free) and within a horizon around it [length]
-    volumes  of the nodes' cells, shape (n,) [length^3]
-    i, j     indices of node and neighbour, shape (n_bonds,); each pair from both ends
-    w        weights, shape (n_bonds,) [length^3]
-    kernel   a space.Kernel
-    box      ((x0, y0, z0), (x1, y1, z1)), whose nodes are solved for
-    points   where the kernel is taken, relative to node i, shape (n_bonds, 3); default: node j
-    meant    names of the rules that the weights are meant to be
-    bonds_are  what w holds: "weights", "stiffness" (C w) or "force constants" (V_i C w)
-    boundary   "constrained": nodes around the box carry data; "periodic": opposite sides of the box
-               are joined, all nodes lie in it, and bonds across its sides are to the nodes themselves
+    nodes     shape (n, 3) [length], those in the box (free) and within a horizon around it
+    volumes   of their cells, shape (n,) [length^3]
+    i, j, w   bonds: indices of node and neighbour (from 0) and weight [length^3], shape (n_bonds,);
+              each pair from both ends
+    kernel    the space.Kernel that the weights are meant for
+    boxes     the domain, one box: ((x0, y0, z0), (x1, y1, z1))
+    points    where the kernel is taken, relative to node i, shape (n_bonds, 3); default: at node j
+    h         the spacing that the nodes are meant to have; default: by their number in the box
+    rule      names of the rules that the weights are meant to be, if that is known
+    bonds_are  what w holds: "weights", "stiffness" (C w: force density per length) or
+              "force constants" (V_i C w: force per length)
+    require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
+    boundary  "constrained": nodes around the box are constrained; "periodic": opposite sides of the
+              box are joined, all nodes lie in it, and bonds across its sides are to the nodes themselves
 
-    Returns a dict: "is_ac" (moments up to the second are exact), "rule" and "rule_factor" (on a
-    lattice of cubes), "causes" and "outliers" (sentences), "first_moments" and "second_moments"
-    (largest defect and its node), "median_moments", "imbalance" of pairs, "n_unpaired", "n_bonds",
-    "n_negative", "spacing", "elastic" (least, median and largest of C1111, C1122, C1212, E, nu).
+    box and meant are former names of boxes and rule. Returns Findings, as plumbline.check does, but
+    "matrix" and "body" are None; print() shows its sentences, where nodes are numbered from 0.
     """
-    return _core.check_in_space(nodes, volumes, i, j, w, kernel, box, points, list(meant),
-                                bonds_are, boundary)
+    return Findings(_core.check_in_space(nodes, volumes, i, j, w, kernel, boxes, points, h or 0., _as_list(rule),
+                                         _as_list(require), bonds_are, boundary))

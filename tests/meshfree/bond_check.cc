@@ -288,14 +288,14 @@ TEST(GivenFamilies, are_read_in_any_order_of_rows_and_columns)
 {
   const auto problem = make_problem(false);
   // two nodes in the domain, one in the collar; an empty kernel point is the neighbour's node
-  const GivenNodes nodes =
-      read_given_nodes(write("nodes.csv", "y,volume,colour,x,id\n.5,.25,red,.75,9\n\n"
-                                          ".5,.2,blue,-.125,-3\n.5, .3 ,red,.25,4\r\n"));
+  const GivenNodes<2> nodes =
+      read_given_nodes<2>(write("nodes.csv", "y,volume,colour,x,id\n.5,.25,red,.75,9\n\n"
+                                             ".5,.2,blue,-.125,-3\n.5, .3 ,red,.25,4\r\n"));
   EXPECT_EQ(nodes.id, (std::vector<std::int64_t>{9, -3, 4}));
   EXPECT_EQ(nodes.line, (std::vector<std::size_t>{2, 4, 5}));
   EXPECT_EQ(nodes_inside(nodes, *problem.mesh()), (std::vector<std::size_t>{0, 2}));
   const auto cells = geometry::voronoi_cells(nodes.places, *problem.mesh());
-  const GivenFamilies given = read_given_families(
+  const GivenFamilies<2> given = read_given_families(
       write("bonds.csv", "j,i,weight,qx,qy\n4,9,.1,-.4,0\n9,-3,1,,\n9,4,-2e-1,,\n-3,4,3,,\n"),
       nodes, cells);
   EXPECT_EQ(given.n_ignored, 1u);

@@ -33,7 +33,7 @@ namespace
                                         {3.5, .3, "linear-decay"}, {3, .3, "constant"},
                                         {4, .2, "bond-tensor"},    {3, .3, "bond-tensor"}};
 
-  std::string text(const Outlier &o)
+  std::string text(const Outlier<2> &o)
   {
     return "defect " + std::to_string(static_cast<int>(o.defect)) + " node " +
            std::to_string(o.node) + " to " + std::to_string(static_cast<long>(o.neighbour)) +
@@ -64,11 +64,11 @@ TEST(Outliers, no_bond_of_a_sound_rule_is_named)
         EXPECT_EQ(rule->rule, name) << nodes.text();
         EXPECT_NEAR(rule->factor, 1, 1e-12);
         EXPECT_TRUE(rule->has_kernel_points);
-        for (const auto &known : {rule, std::optional<Recognised>()})
-          for (const Outlier &o : find_outliers(weights.given(), known))
+        for (const auto &known : {rule, std::optional<Recognised<2>>()})
+          for (const Outlier<2> &o : find_outliers(weights.given(), known))
             ADD_FAILURE() << nodes.text() << ", " << name << (known ? "" : " (not recognised)")
                           << ": " << text(o);
-        const VolumeCheck volumes = check_volumes(weights.given(), weights.volumes);
+        const VolumeCheck<2> volumes = check_volumes(weights.given(), weights.volumes);
         EXPECT_TRUE(volumes.outliers.empty());
         EXPECT_EQ(volumes.factor, 1);
       }
@@ -120,7 +120,7 @@ namespace
          w.families[i].bonds[k].kernel_point *= .5;
        }}};
 
-  bool names(const Outlier &o, std::size_t i, std::size_t j)
+  bool names(const Outlier<2> &o, std::size_t i, std::size_t j)
   {
     return (o.node == i && o.neighbour == j) ||
            ((o.is_both_ways || o.defect == Defect::symmetry) && o.node == j && o.neighbour == i);
@@ -297,7 +297,7 @@ TEST(Outliers, a_volume_that_is_doubled_in_all_weights_to_a_node_is_named_for_ev
                       const auto unknown = find_outliers(weights.given(), {});
                       if (nodes.perturbation > 0 && (name == "OPT" || name == "IPA-AC-R4"))
                       { // they differ by more: no other node is blamed
-                        for (const Outlier &o : unknown)
+                        for (const Outlier<2> &o : unknown)
                           EXPECT_TRUE(o.node == j || o.neighbour == j) << name << ": " << text(o);
                         continue;
                       }
@@ -323,7 +323,7 @@ TEST(Outliers, a_factor_does_not_hide_another_defect)
     weights.families[45].bonds[k].weight *= -1;
     const auto found = find_outliers(weights.given(), {});
     ASSERT_EQ(found.size(), 2u) << perturbation;
-    for (const Outlier &o : found)
+    for (const Outlier<2> &o : found)
       EXPECT_TRUE(o.defect == Defect::neighbour ? o.node == 27 : names(o, 45, j)) << text(o);
   }
 }

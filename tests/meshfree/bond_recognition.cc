@@ -71,15 +71,15 @@ namespace
 
   /// What the moments say of the node after one of its weights changed by a part of itself, and
   /// another one by another.
-  Outlier of_changes(Weights weights, std::size_t first, double by, std::size_t second,
-                     double by_less)
+  Outlier<2> of_changes(Weights weights, std::size_t first, double by, std::size_t second,
+                        double by_less)
   {
     std::vector<Bond<2>> &bonds = weights.families[node].bonds;
     bonds[first].weight *= 1 + by;
     bonds[second].weight *= 1 + by_less;
     const auto found = find_moment_outliers(weights.given(), all_pairs(weights.given()));
     EXPECT_EQ(found.size(), 1u);
-    return found.empty() ? Outlier{Defect::moments, 0} : found[0];
+    return found.empty() ? Outlier<2>{Defect::moments, 0} : found[0];
   }
 
   std::size_t bond_at(const Weights &weights, int k1, int k2)
@@ -102,7 +102,7 @@ TEST(MomentOutliers, name_the_bond_that_explains_all_but_a_twentieth)
                                      {.25, Defect::moments},
                                      {.8, Defect::moments}})
   {
-    const Outlier found = of_changes(weights, one, 1, two, less);
+    const Outlier<2> found = of_changes(weights, one, 1, two, less);
     EXPECT_EQ(found.node, node);
     EXPECT_EQ(found.defect, defect) << less;
     if (found.defect == Defect::weight)
@@ -119,7 +119,7 @@ TEST(MomentOutliers, name_no_bond_where_another_explains_nearly_as_much)
   // alone each is told from the other, not where something else is off by a few percent
   const Weights weights = weights_of("FA", nodes_for(9, 0, "constant"));
   const std::size_t one = bond_at(weights, 8, 1), two = bond_at(weights, -8, 2);
-  const Outlier alone = of_changes(weights, one, 1, two, 0);
+  const Outlier<2> alone = of_changes(weights, one, 1, two, 0);
   EXPECT_EQ(alone.defect, Defect::weight);
   EXPECT_EQ(alone.bond, one);
   EXPECT_EQ(of_changes(weights, one, 1, two, .04).defect, Defect::moments);

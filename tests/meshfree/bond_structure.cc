@@ -34,7 +34,7 @@ namespace
                    { bond.weight *= factor; });
   }
 
-  Explanation explained(const Weights &weights, const Circumstances &circumstances = {})
+  Explanation<2> explained(const Weights &weights, const Circumstances<2> &circumstances = {})
   {
     return explain(weights.given(), recognise(weights.given()), circumstances);
   }
@@ -88,7 +88,7 @@ TEST(Structure, half_lists_of_any_order_are_named_and_mended)
     for (const auto &[order, is_left_out] : orders)
       for (const double factor : {1., .002, 1000.})
       {
-        const Explanation found = explained(times(without(whole, is_left_out), factor));
+        const Explanation<2> found = explained(times(without(whole, is_left_out), factor));
         ASSERT_FALSE(found.causes.empty()) << order << ", " << factor;
         EXPECT_EQ(found.causes[0].name, "half list") << order;
         EXPECT_TRUE(found.causes[0].is_structural);
@@ -105,7 +105,7 @@ TEST(Structure, half_lists_take_the_bonds_that_nodes_of_the_collar_give)
 {
   const Weights whole = weights_of("IPA-AC-R2", nodes_for(3, 0, "linear-decay"));
   const std::size_t n = whole.families.size();
-  Circumstances circumstances;
+  Circumstances<2> circumstances;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < whole.families[i].bonds.size(); ++k)
       if (const std::size_t j = whole.families[i].neighbours[k]; j >= n)
@@ -140,7 +140,7 @@ TEST(Structure, a_kernel_in_the_weights_is_named_by_its_profile)
             weights_of("FA", nodes_for(4, perturbation, "linear-decay")),
             [&, profile = profile](Bond<2> &bond, const Weights &w, std::size_t, std::size_t)
             { bond.weight *= constant * profile(bond.xi.norm() / w.problem.horizon()); });
-        const Explanation found = explained(weights);
+        const Explanation<2> found = explained(weights);
         ASSERT_FALSE(found.causes.empty()) << text << ", " << perturbation;
         EXPECT_EQ(found.causes[0].name, "kernel in the weights") << text;
         EXPECT_NE(found.causes[0].text.find(text), std::string::npos) << found.causes[0].text;
@@ -158,7 +158,7 @@ TEST(Structure, weights_with_the_own_volume_are_named)
           changed(graded(rule), [](Bond<2> &bond, const Weights &w, std::size_t i, std::size_t j)
                   { bond.weight *= w.volumes[i] / w.volumes[j]; }),
           factor);
-      const Explanation found = explained(weights);
+      const Explanation<2> found = explained(weights);
       ASSERT_FALSE(found.causes.empty()) << rule << ", " << factor;
       EXPECT_EQ(found.causes[0].name, "own volume") << rule << ": " << names(found.causes);
       ASSERT_TRUE(found.rule);
@@ -262,7 +262,7 @@ TEST(Volumes, carry_a_factor_that_is_told_from_the_areas)
       Weights weights = weights_of("FA", nodes_for(3, perturbation, "linear-decay"));
       for (double &volume : weights.volumes)
         volume *= factor;
-      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
+      const VolumeCheck<2> check = check_volumes(weights.given(), weights.problem.cells()->area);
       EXPECT_NEAR(check.factor, factor, 1e-9 * factor) << perturbation;
       EXPECT_TRUE(check.outliers.empty());
       for (std::size_t i = 0; i < check.mended.size(); ++i)
@@ -288,17 +288,17 @@ TEST(Volumes, of_bands_of_nodes_are_named_and_those_of_one_size_are_none)
           weights.volumes[i] *= factor;
         }
       ASSERT_GT(band.size(), weights.families.size() / 5);
-      const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
+      const VolumeCheck<2> check = check_volumes(weights.given(), weights.problem.cells()->area);
       EXPECT_EQ(check.factor, 1);
       ASSERT_EQ(check.outliers.size(), band.size()) << perturbation << ", " << factor;
-      for (const Outlier &one : check.outliers)
+      for (const Outlier<2> &one : check.outliers)
         EXPECT_NEAR(one.found / one.expected, factor, 1e-6);
     }
   // h² of nodes that are moved
   Weights weights = weights_of("FA", nodes_for(3, .3, "linear-decay"));
   for (double &volume : weights.volumes)
     volume = node_distance * node_distance;
-  const VolumeCheck check = check_volumes(weights.given(), weights.problem.cells()->area);
+  const VolumeCheck<2> check = check_volumes(weights.given(), weights.problem.cells()->area);
   EXPECT_TRUE(check.outliers.empty());
   EXPECT_EQ(check.factor, 1);
 }
@@ -306,7 +306,7 @@ TEST(Volumes, of_bands_of_nodes_are_named_and_those_of_one_size_are_none)
 TEST(Volumes, and_weights_that_carry_one_factor_are_one_cause)
 {
   const Weights sound = weights_of("FA", nodes_for(3, 0, "linear-decay"));
-  Circumstances circumstances;
+  Circumstances<2> circumstances;
   circumstances.volume_factor = .002;
   auto causes = explained(times(sound, .002), circumstances).causes;
   ASSERT_EQ(causes.size(), 1u) << names(causes);

@@ -33,13 +33,14 @@ namespace plumbline::meshfree
     std::vector<Family<2>> families;
     std::vector<double> volumes;
 
-    GivenBonds given() const { return {families, problem.kernel, *problem.cells(), volumes}; }
+    GivenBonds<2> given() const { return {families, problem.kernel, *problem.cells(), volumes}; }
   };
 
   inline Weights weights_of(const std::string &rule, const problem::Problem<2> &problem)
   {
     Weights result{problem, {}, problem.cells()->area};
-    result.families = rule_families(rule, {{}, problem.kernel, *problem.cells(), result.volumes});
+    result.families =
+        rule_families(rule, GivenBonds<2>{{}, problem.kernel, *problem.cells(), result.volumes});
     for (Family<2> &family : result.families)
       for (std::size_t k = 0; k < family.bonds.size(); ++k)
         family.bonds[k].area = result.volumes[family.neighbours[k]];

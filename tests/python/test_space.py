@@ -32,7 +32,7 @@ def nodes_and_bonds(rule, kernel):
 
 def check(rule, kernel, change=lambda w: w, **options):
     nodes, volumes, i, j, w, points = nodes_and_bonds(rule, kernel)
-    return space.check(nodes, volumes, i, j, change(w), kernel, box=((0, 0, 0), (1, 1, 1)),
+    return space.check(nodes, volumes, i, j, change(w), kernel, boxes=((0, 0, 0), (1, 1, 1)),
                        points=points, **options)
 
 
@@ -47,14 +47,43 @@ def test_right_weights_are_recognised_and_have_their_moduli():
 
 def test_wrong_weights_are_named():
     kernel = space.Kernel("linear-decay", m * h, diffusion=.5)
-    assert check("IPA-AC-R2", kernel, lambda w: 2 * w)["causes"] == ["all weights are doubled"]
+    doubled = check("IPA-AC-R2", kernel, lambda w: 2 * w)
+    assert [one["name"] for one in doubled["causes"]] == ["factor 2"] and not doubled.passed
+    assert "twice too large" in str(doubled) and str(doubled).endswith("NOT as required")
 
     def one_off(w):
         w = w.copy()
         w[17] *= 1.5
         return w
-    assert len(check("IPA-AC-R2", kernel, one_off)["outliers"]) == 1
-    assert "ramp of LAMMPS" in check("FA", kernel, meant=["LAMMPS"])["causes"][0]
+    found = check("IPA-AC-R2", kernel, one_off)
+    assert len(found["outliers"]) == 1 and found["outliers"][0]["index"] == 17
+    assert "(index 17 of the bonds)" in found["complaints"][0] and "line" not in str(found)
+    for name in "rule", "meant":
+        assert "partial volumes of LAMMPS" in check("FA", kernel, **{name: ["LAMMPS"]})["causes"][0]["text"]
+
+
+def test_a_kernel_in_the_weights_is_told_with_its_argument():
+    kernel = space.Kernel("linear-decay", 3 * h, diffusion=.5)
+    family = space.weights("FA", kernel, h)
+    reach, k = 3, np.arange(-3, n + 3)
+    at = np.array(list(itertools.product(k, k, k)))
+    index = {tuple(one): place for place, one in enumerate(at)}
+    free = [place for place, one in enumerate(at) if one.min() >= 0 and one.max() < n]
+    offsets = family.offsets[np.sum(family.offsets**2, axis=1) < reach**2]
+    j = [index[tuple(at[one] + offset)] for one in free for offset in offsets]
+    given = dict(nodes=(at + .5) * h, volumes=np.full(len(at), h**3), i=np.repeat(free, len(offsets)), j=j,
+                 w=np.tile(kernel(offsets * h) * h**3, len(free)), kernel=kernel, boxes=((0, 0, 0), (1, 1, 1)))
+    found = space.check(**given)
+    assert found["causes"][0]["name"] == "kernel in the weights"
+    assert 'bonds_are="stiffness"' in found["causes"][0]["text"]
+    assert space.check(**given, bonds_are="stiffness")["rule"] == "FA"
+    with pytest.raises(ValueError, match="'free' is available in plumbline.check.*'constrained' or 'periodic'"):
+        space.check(**given, boundary="free")
+
+
+def test_old_and_new_names_of_boxes_are_not_given_at_once():
+    with pytest.raises(TypeError, match="box"):
+        check("FA", space.Kernel("linear-decay", m * h, diffusion=.5), box=((0, 0, 0), (1, 1, 1)))
 
 
 def test_periodic_boxes():
