@@ -1,5 +1,6 @@
 #include "method/box_discretisation.h"
 
+#include "algebra/multiplier_system.h"
 #include "algebra/slab_system.h"
 #include "base/error.h"
 #include "method/stencil_rows.h"
@@ -517,6 +518,6 @@ namespace plumbline::method
   {
     if (node_slabs_.ranks().n_ranks() > 1)
       return std::make_unique<algebra::SlabSystem>(stencil_, nodes_.n, node_slabs_, backend_);
-    return std::make_unique<algebra::StencilSystem>(stencil_, nodes_, backend_);
+    return make_box_system(stencil_, nodes_, backend_);
   }
 } // namespace plumbline::method
