@@ -255,7 +255,7 @@ namespace plumbline::algebra
   make_box_system(const Stencil &stencil, const geometry::BoxNodes &nodes, OperatorBackend backend)
   {
     // measured: see the class
-    constexpr double strong = 20, most_bytes_per_unknown = 400, always_bytes = 2e8;
+    constexpr double strong = 10, most_bytes_per_unknown = 400, always_bytes = 2e8;
     if (nodes.is_free.empty() && stencil.is_even() && stencil.n_blocks() <= 3 &&
         coupling(stencil) > strong)
     {

@@ -24,14 +24,15 @@ namespace plumbline::algebra
     void add(const PeriodicBox &box, const double *values, double *result) const;
 
   private:
+    void invert(const PeriodicBox &box);
     template <class Visit>
     void for_each_row(const PeriodicBox &box, const Visit &visit) const;
 
-    unsigned int axis_, a_, b_;                 ///< across, and the others, of which a is the lower
-    int width_ = 0;                             ///< unknowns of one mode: components times planes
-    std::size_t n_points_ = 0, n_modes_ = 0;    ///< of a plane
-    std::vector<std::complex<double>> inverse_; ///< shape (n_modes, width, width)
-    base::AlignedArray<double> planes_;         ///< shape (n_blocks, planes, N[b], N[a])
+    unsigned int axis_, a_, b_;              ///< across, and the others, of which a is the lower
+    int width_ = 0;                          ///< unknowns of one mode: components times planes
+    std::size_t n_points_ = 0, n_modes_ = 0; ///< of a plane
+    std::vector<double> inverse_;            ///< shape (n_modes, width, width)
+    base::AlignedArray<double> planes_;      ///< shape (n_blocks, planes, N[b], N[a])
     base::AlignedArray<std::complex<double>> modes_;
     base::Plan forward_, backward_;
   };

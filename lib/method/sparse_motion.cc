@@ -1,5 +1,6 @@
 #include "method/sparse_motion.h"
 
+#include "algebra/block_rows.h"
 #include "algebra/spectrum.h"
 
 #include <deal.II/base/parallel.h>
@@ -15,11 +16,22 @@ namespace plumbline::method
   {
     using State = EquationOfMotion::State;
 
-    algebra::Action action_of(const algebra::CsrMatrix &rows)
+    constexpr unsigned int grain = 512; // rows, worth a thread's while
+
+    algebra::Action action_of(const algebra::CsrMatrix &rows, unsigned int n_components)
     {
+      if (auto blocks = algebra::BlockRows::make(rows, n_components))
+        return [n_components, by = std::make_shared<const algebra::BlockRows>(std::move(*blocks))](
+                   const State &x, State &y)
+        {
+          y.resize(n_components * by->n_nodes());
+          dealii::parallel::apply_to_subranges(
+              static_cast<std::size_t>(0), by->n_nodes(),
+              [&](std::size_t from, std::size_t to) { by->vmult(x.data(), y.data(), from, to); },
+              grain / 2);
+        };
       return [&rows](const State &x, State &y)
       {
-        constexpr unsigned int grain = 512; // rows, worth a thread's while
         y.resize(rows.n_rows());
         dealii::parallel::apply_to_subranges(
             static_cast<std::size_t>(0), rows.n_rows(),
@@ -38,10 +50,10 @@ namespace plumbline::method
     }
 
     /// Rows of another matrix with a life of their own.
-    algebra::Action action_of(algebra::CsrMatrix &&rows)
+    algebra::Action action_of(algebra::CsrMatrix &&rows, unsigned int n_components)
     {
       const auto own = std::make_shared<const algebra::CsrMatrix>(std::move(rows));
-      return [own, act = action_of(*own)](const State &x, State &y) { act(x, y); };
+      return [own, act = action_of(*own, n_components)](const State &x, State &y) { act(x, y); };
     }
 
     bool is_symmetric(const SparseParts &parts)
@@ -84,15 +96,16 @@ namespace plumbline::method
         subtract_constrained(parts->mass.constrained, parts->around(instant), load);
       return values(load);
     };
-    return move_linear<2>(
-        {parts->nodes,
-         parts->n_components,
-         {},
-         mass_root(*parts),
-         action_of(parts->stiffness),
-         is_symmetric(*parts) ? algebra::Action() : action_of(algebra::transpose(parts->stiffness)),
-         load,
-         inertia,
-         1});
+    return move_linear<2>({parts->nodes,
+                           parts->n_components,
+                           {},
+                           mass_root(*parts),
+                           action_of(parts->stiffness, parts->n_components),
+                           is_symmetric(*parts) ? algebra::Action()
+                                                : action_of(algebra::transpose(parts->stiffness),
+                                                            parts->n_components),
+                           load,
+                           inertia,
+                           1});
   }
 } // namespace plumbline::method

@@ -1,0 +1,271 @@
+// Explicit steps beside Debian's LAMMPS (lmp) in one run: the same nodes and the same bonds of
+// horizon 3 h, prescribed small velocities, velocity Verlet, one thread, CPU time. Bond updates a
+// second are directed bonds that LAMMPS counts, over the time of a step, for both.
+// Run: build/release/benchmarks/lammps [NODES_ALONG_AN_AXIS [STEPS]]
+
+#include "algebra/block_rows.h"
+#include "algebra/multiplier_system.h"
+#include "analysis/integrate.h"
+#include "base/cost.h"
+#include "meshfree/lattice/stencil.h"
+#include "meshfree/rules/rules.h"
+#include "meshfree/scattered/operator.h"
+#include "physics/state_based.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
+#include <deal.II/lac/vector.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <sstream>
+#include <string>
+
+using namespace plumbline;
+
+namespace
+{
+  using Nodes = std::vector<dealii::Point<3>>;
+  using Values = std::vector<double>;
+
+  constexpr double horizon = 3.0001; // with the nodes at 3 h
+  constexpr double density = 1, bulk = 1, shear = .5, step = 1e-3, speed = 1e-8;
+  constexpr int n_repetitions = 3;
+
+  /// A lattice of spacing 1, each node moved by up to so much along each axis; x fastest.
+  Nodes make_nodes(int n, double moved)
+  {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-moved, moved);
+    Nodes nodes;
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          nodes.emplace_back(i + uniform(random), j + uniform(random), k + uniform(random));
+    return nodes;
+  }
+
+  double median(Values values)
+  {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+  }
+
+  double children_seconds()
+  {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  }
+
+  struct Peer
+  {
+    double seconds = 0; ///< a step
+    double n_bonds = 0; ///< directed
+  };
+
+  /// LAMMPS' steps: CPU time of a run with so many less that of one with few.
+  Peer run_lammps(const Nodes &nodes, int n, const std::string &pair, int n_steps)
+  {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("plumbline-lammps-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    {
+      std::ofstream data(folder / "nodes");
+      data.precision(17);
+      data << "nodes\n\n" << nodes.size() << " atoms\n1 atom types\n";
+      for (const char axis : {'x', 'y', 'z'})
+        data << -1. << ' ' << n << ' ' << axis << "lo " << axis << "hi\n";
+      data << "\nAtoms\n\n";
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        data << i + 1 << " 1 1 " << density << ' ' << nodes[i] << '\n';
+    }
+    Peer peer;
+    const auto seconds = [&](int steps)
+    {
+      std::ofstream input(folder / "in");
+      input << "units si\nboundary f f f\natom_style peri\natom_modify map array\nread_data "
+            << (folder / "nodes").string() << "\n"
+            << pair << "\nneighbor 1.0 bin\ncomm_modify cutoff 8\n"
+            << "velocity all create " << speed << " 87287 loop geom\nfix 1 all nve\n"
+            << "timestep " << step << "\nthermo 1000\nrun " << steps << "\n";
+      input.close();
+      const double before = children_seconds();
+      const std::string command = "OMP_NUM_THREADS=1 lmp -in " + (folder / "in").string() +
+                                  " -log none -nocite >" + (folder / "out").string() +
+                                  " 2>&1 </dev/null";
+      if (std::system(command.c_str()) != 0)
+      {
+        std::cerr << std::ifstream(folder / "out").rdbuf() << "lmp fails; apt-get install lammps\n";
+        std::exit(2);
+      }
+      return children_seconds() - before;
+    };
+    Values differences;
+    constexpr int few = 1;
+    for (int i = 0; i < n_repetitions; ++i)
+      differences.push_back((seconds(few + n_steps) - seconds(few)) / n_steps);
+    peer.seconds = median(differences);
+    std::ifstream out(folder / "out");
+    for (std::string line; std::getline(out, line);)
+      if (const auto at = line.find("total # of bonds = "); at != std::string::npos)
+        peer.n_bonds = std::stod(line.substr(at + 19));
+    std::filesystem::remove_all(folder);
+    return peer;
+  }
+
+  /// Ours: CPU time of a step of velocity Verlet.
+  double seconds_of_step(std::size_t n_unknowns, const algebra::Action &stiffness, int n_steps)
+  {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal(0, speed);
+    Values times;
+    for (int i = 0; i < n_repetitions; ++i)
+    {
+      analysis::State state{Values(n_unknowns), Values(n_unknowns), 0};
+      for (double &v : state.v)
+        v = normal(random);
+      const analysis::Motion motion{n_unknowns, [&](const Values &u, double, Values &a)
+                                    {
+                                      stiffness(u, a);
+                                      for (double &value : a)
+                                        value /= -density;
+                                    }};
+      const base::CpuTimer timer;
+      analysis::integrate(motion, analysis::scheme("velocity Verlet"), {step}, n_steps * step,
+                          state);
+      times.push_back(timer.seconds() / n_steps);
+    }
+    return median(times);
+  }
+
+  void report(const char *what, double n_own, double seconds, const Peer &peer, double wanted)
+  {
+    const double ratio = peer.seconds / seconds;
+    std::printf("%-44s %.3ge6 directed bonds (LAMMPS %.3ge6): %7.2f ms a step, %.3fe9 bonds/s; "
+                "LAMMPS %7.2f ms, %.4fe9 bonds/s: %.1f times as fast (wanted %g)\n",
+                what, 1e-6 * n_own, 1e-6 * peer.n_bonds, 1e3 * seconds,
+                1e-9 * peer.n_bonds / seconds, 1e3 * peer.seconds,
+                1e-9 * peer.n_bonds / peer.seconds, ratio, wanted);
+    std::fflush(stdout);
+  }
+
+  /// Directed bonds between the nodes of a lattice.
+  double count_bonds(int n)
+  {
+    double sum = 0;
+    const int reach = static_cast<int>(horizon);
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i)
+          if (const int square = i * i + j * j + k * k; square > 0 && square <= horizon * horizon)
+            sum += static_cast<double>(n - std::abs(i)) * (n - std::abs(j)) * (n - std::abs(k));
+    return sum;
+  }
+
+  /// Bonds of scattered nodes with volumes 1, kernel at the node.
+  meshfree::FamilySource<3> scattered_families(const Nodes &nodes, int n)
+  {
+    return [&nodes, n](std::size_t node, meshfree::Family<3> &family)
+    {
+      family = {};
+      const int reach = static_cast<int>(horizon) + 1, own = static_cast<int>(node);
+      const std::array<int, 3> at = {own % n, own / n % n, own / (n * n)};
+      const auto from = [&](unsigned int d) { return std::max(0, at[d] - reach); };
+      const auto to = [&](unsigned int d) { return std::min(n - 1, at[d] + reach); };
+      for (int k = from(2); k <= to(2); ++k)
+        for (int j = from(1); j <= to(1); ++j)
+          for (int i = from(0); i <= to(0); ++i)
+          {
+            const auto other = static_cast<unsigned int>(i + n * (j + n * k));
+            const dealii::Point<3> xi(nodes[other] - nodes[node]);
+            if (other == node || xi.norm() > horizon)
+              continue;
+            family.neighbours.push_back(other);
+            family.bonds.push_back({xi, 1, xi, 1});
+          }
+    };
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const int n = argc > 1 ? std::atoi(argv[1]) : 41, n_steps = argc > 2 ? std::atoi(argv[2]) : 20;
+  char pmb[200], lps[200];
+  std::snprintf(pmb, sizeof pmb, "pair_style peri/pmb\npair_coeff * * 1.0 %g 1e10 0.0", horizon);
+  std::snprintf(lps, sizeof lps, "pair_style peri/lps\npair_coeff * * %g %g %g 1e10 0.0", bulk,
+                shear, horizon);
+  const Nodes lattice = make_nodes(n, 0), scattered = make_nodes(n, .3);
+  const geometry::BoxNodes box{{n, n, n}};
+
+  const auto kernel = physics::Kernel<3>::with_bulk_modulus(
+      physics::kernel_type("bond-tensor").profile, horizon, bulk);
+  const auto apply = [&](const algebra::Stencil &stencil)
+  {
+    std::vector<std::size_t> all(stencil.n_blocks() * box.n_positions());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = i;
+    const std::size_t size = all.size();
+    return algebra::restrict(make_operator(stencil, box), size, std::move(all));
+  };
+  const std::size_t n_unknowns = 3 * box.n_positions();
+  const auto bonds =
+      meshfree::lattice_bonds(meshfree::full_area(kernel), kernel, 1, geometry::Backend::fast);
+  report("bonds, lattice", count_bonds(n),
+         seconds_of_step(n_unknowns, apply(meshfree::lattice_operator(kernel, bonds)), 5 * n_steps),
+         run_lammps(lattice, n, pmb, n_steps), 10);
+
+  const physics::Dilatation<3> solid{physics::influence_function<3>({{1, -1}}, horizon),
+                                     [](const auto &) {
+                                       return physics::Lame{bulk - 2 * shear / 3, shear};
+                                     },
+                                     false, true};
+  const auto deviatoric = physics::deviatoric_kernel(solid.influence, shear);
+  report(
+      "linear peridynamic solid, lattice", count_bonds(n),
+      seconds_of_step(n_unknowns,
+                      apply(meshfree::state_based_stencil(
+                          solid, meshfree::lattice_bonds(meshfree::full_area(deviatoric),
+                                                         deviatoric, 1, geometry::Backend::fast))),
+                      5 * n_steps),
+      run_lammps(lattice, n, lps, n_steps), 10);
+
+  const algebra::CsrMatrix rows =
+      meshfree::bond_rows<3>(scattered_families(scattered, n), kernel, 3, {0, scattered.size()},
+                             [](std::size_t, const meshfree::Family<3> &, Values &) {});
+  const auto blocks = algebra::BlockRows::make(rows, 3);
+  const Peer peer = run_lammps(scattered, n, pmb, n_steps);
+  const auto own_bonds = static_cast<double>(blocks->n_bonds());
+  report("bonds, scattered nodes, by directions", own_bonds,
+         seconds_of_step(
+             n_unknowns,
+             [&](const Values &x, Values &y)
+             { blocks->vmult(x.data(), y.data(), 0, blocks->n_nodes()); },
+             n_steps),
+         peer, 3);
+  report("bonds, scattered nodes, by sparse rows", own_bonds,
+         seconds_of_step(
+             n_unknowns,
+             [&](const Values &x, Values &y)
+             {
+               for (std::size_t i = 0; i < rows.n_rows(); ++i)
+               {
+                 double sum = 0;
+                 for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                   sum += rows.value[k] * x[rows.column[k]];
+                 y[i] = sum;
+               }
+             },
+             n_steps),
+         peer, 3);
+}
