@@ -13,6 +13,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -101,7 +102,7 @@ int main(int argc, char **argv)
   const unsigned int most_iterations = argc > 2 ? std::atoi(argv[2]) : 500;
   for (const std::string method : {"IPA-AC-R2", "Q1"})
     for (const double nu : {.2, .45, .495, .4999})
-      for (int n = 16; n <= largest; n *= 2)
+      for (int n = std::min(16, largest); n <= largest; n *= 2)
       {
         const algebra::Stencil matrix = stencil(method, nu, n);
         const geometry::BoxNodes nodes{{n, n, n}};

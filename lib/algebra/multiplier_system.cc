@@ -251,23 +251,56 @@ namespace plumbline::algebra
     return result;
   }
 
+  double multiplier_bytes(unsigned int n_blocks, const std::array<int, 3> &n,
+                          const std::array<int, 3> &reaches)
+  {
+    constexpr double most_per_unknown = 400, always = 2e8, value = sizeof(double);
+    const auto periods = PeriodicBox::periods(reaches, n);
+    double points = 1, nodes = 1, matrices = 0;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      points *= periods[d];
+      nodes *= n[d];
+      matrices += SlabInverse::bytes(n_blocks, n, periods, d);
+    }
+    // the symbol, a field and its modes; multipliers, conjugate gradients and planes; residuals
+    const double result = matrices + points * value * n_blocks * (2 + (n_blocks + 1) / 4.) +
+                          (points - nodes) * value * n_blocks * 8 + nodes * value * n_blocks * 3;
+    return result <= std::max(always, most_per_unknown * n_blocks * nodes) ? result : 0;
+  }
+
+  bool has_mirror_images(const Stencil &stencil)
+  {
+    constexpr double rounding = 1e-14;
+    double largest = 0, defect = 0;
+    for (unsigned int s = 0; s < stencil.n_blocks(); ++s)
+      for (unsigned int t = 0; t < stencil.n_blocks(); ++t)
+        stencil.for_each_offset(
+            [&](int k1, int k2, int k3)
+            {
+              const double entry = stencil(s, t, k1, k2, k3);
+              largest = std::max(largest, std::abs(entry));
+              for (unsigned int d = 0; d < 3; ++d)
+              {
+                std::array<int, 3> image = {k1, k2, k3};
+                image[d] = -image[d];
+                const double sign = (s == d) != (t == d) ? -1 : 1;
+                defect = std::max(
+                    defect, std::abs(entry - sign * stencil(s, t, image[0], image[1], image[2])));
+              }
+            });
+    return defect <= rounding * largest;
+  }
+
   std::unique_ptr<LinearSystem>
   make_box_system(const Stencil &stencil, const geometry::BoxNodes &nodes, OperatorBackend backend)
   {
-    // measured: see the class
-    constexpr double strong = 10, most_bytes_per_unknown = 400, always_bytes = 2e8;
-    if (nodes.is_free.empty() && stencil.is_even() && stencil.n_blocks() <= 3 &&
-        coupling(stencil) > strong)
-    {
-      const auto periods = PeriodicBox::periods(stencil, nodes.n);
-      double bytes = 0;
-      for (unsigned int d = 0; d < 3; ++d)
-        bytes += SlabInverse::bytes(stencil.n_blocks(), nodes.n, periods, d);
-      const double n_unknowns =
-          static_cast<double>(stencil.n_blocks()) * static_cast<double>(nodes.n_positions());
-      if (bytes <= std::max(always_bytes, most_bytes_per_unknown * n_unknowns))
-        return std::make_unique<MultiplierSystem>(stencil, nodes.n, backend);
-    }
+    // where both take the same time at n = 16 and 32 (ν = .45); at n = 64 multipliers win from 3 on
+    constexpr double strong = 10;
+    if (nodes.is_free.empty() && stencil.n_blocks() <= 3 && coupling(stencil) > strong &&
+        stencil.is_even() && has_mirror_images(stencil) &&
+        multiplier_bytes(stencil.n_blocks(), nodes.n, stencil.reaches()) > 0)
+      return std::make_unique<MultiplierSystem>(stencil, nodes.n, backend);
     return std::make_unique<StencilSystem>(stencil, nodes, backend);
   }
 } // namespace plumbline::algebra

@@ -11,19 +11,17 @@ namespace plumbline::algebra
 {
   using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 
-  std::array<int, 3> PeriodicBox::periods(const Stencil &stencil, const std::array<int, 3> &n)
+  std::array<int, 3> PeriodicBox::periods(const std::array<int, 3> &reaches,
+                                          const std::array<int, 3> &n)
   {
     std::array<int, 3> result{};
     for (unsigned int d = 0; d < 3; ++d)
-    {
-      const int reach = stencil.reaches()[d];
-      result[d] = reach == 0 ? n[d] : base::fast_length(n[d] + reach);
-    }
+      result[d] = reaches[d] == 0 ? n[d] : base::fast_length(n[d] + reaches[d]);
     return result;
   }
 
   PeriodicBox::PeriodicBox(const Stencil &stencil, const std::array<int, 3> &n)
-      : n_blocks_(stencil.n_blocks()), n_(n), period_(periods(stencil, n)),
+      : n_blocks_(stencil.n_blocks()), n_(n), period_(periods(stencil.reaches(), n)),
         n_points_(static_cast<std::size_t>(period_[0]) * period_[1] * period_[2]),
         n_modes_(n_points_ / period_[0] * (period_[0] / 2 + 1)), field_(n_blocks_ * n_points_),
         modes_(n_blocks_ * n_modes_)

@@ -22,7 +22,9 @@ namespace plumbline::algebra
     /// @throws NumericalError  a block of the symbol is not positive definite
     PeriodicBox(const Stencil &stencil, const std::array<int, 3> &n);
 
-    static std::array<int, 3> periods(const Stencil &stencil, const std::array<int, 3> &n);
+    /// N: lengths whose transforms are fast.
+    static std::array<int, 3> periods(const std::array<int, 3> &reaches,
+                                      const std::array<int, 3> &n);
 
     unsigned int n_blocks() const { return n_blocks_; }
     const std::array<int, 3> &n() const { return n_; }
