@@ -70,6 +70,34 @@ namespace plumbline::benchmarks
       const double length = n + stencil.reach();
       count(state, "bonds", bonds, work(backend, bonds, n * n, c, length * length));
     }
+    /// The same directly on n × n × n nodes in space.
+    void apply_in_space(benchmark::State &state, bool is_tensor)
+    {
+      const auto m = static_cast<double>(state.range(0));
+      const int n = static_cast<int>(state.range(1));
+      const auto profile = physics::kernel_type(is_tensor ? "bond-tensor" : "linear-decay").profile;
+      const auto kernel = is_tensor ? physics::Kernel<3>::with_bulk_modulus(profile, m / n, 1)
+                                    : physics::Kernel<3>::with_diffusion(profile, m / n, .5);
+      const auto stencil = meshfree::lattice_operator(
+          kernel, meshfree::lattice_bonds(meshfree::improved_partial_area(kernel), kernel, 1. / n,
+                                          geometry::Backend::fast));
+      const auto matrix =
+          make_operator(stencil, geometry::BoxNodes{{n, n, n}}, OperatorBackend::direct);
+      const double c = kernel.n_components(), n_nodes = std::pow(n, 3);
+      algebra::Vector x(static_cast<unsigned int>(c * n_nodes)), y(x.size());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = std::sin(static_cast<double>(i));
+      for (auto _ : state)
+      {
+        matrix->vmult(y, x);
+        benchmark::DoNotOptimize(y[0]);
+      }
+      // for two opposite bonds, 9 multiplications and additions of a tensor and 3 sums
+      const double bonds = static_cast<double>(matrix->n_bonds()) / (c * c);
+      const double vectors = 2 * 8 * c * n_nodes;
+      count(state, "bonds", bonds,
+            {(c == 1 ? 1.5 : 10.5) * bonds, 8 * c * bonds, vectors, 1.5 * vectors});
+    }
   } // namespace
 
   void register_operators()
@@ -92,6 +120,14 @@ namespace plumbline::benchmarks
           if (!is_tensor || m <= 16)
             bench->Args({m, is_tensor && m == 16 ? 128 : n});
       }
+    for (const bool is_tensor : {false, true})
+      benchmark::RegisterBenchmark(is_tensor ? "apply/space/tensor/direct"
+                                             : "apply/space/scalar/direct",
+                                   [=](benchmark::State &s) { apply_in_space(s, is_tensor); })
+          ->ArgNames({"m", "n"})
+          ->Args({3, 96})
+          ->Args({5, 96})
+          ->Unit(benchmark::kMillisecond);
     // vectors too large for any cache
     benchmark::RegisterBenchmark("apply/scalar/direct", apply, false, OperatorBackend::direct)
         ->ArgNames({"m", "n"})
