@@ -7,7 +7,7 @@ namespace plumbline::algebra
   namespace
   {
     /// This rank's rows of the leading block A.
-    CsrMatrix leading_block(const CsrMatrix &own, const OwnedRanges &ranges)
+    CsrMatrix leading_block(const CsrView &own, const OwnedRanges &ranges)
     {
       const std::size_t n = ranges.size_of_all();
       CsrMatrix block;

@@ -32,18 +32,22 @@ namespace plumbline::algebra
       return received;
     }
 
-    /// What all ranks give to this rank's share: shape (n_ranks × own_size) rows, by sender.
-    CsrMatrix from_all(const CsrMatrix &rows, const OwnedRanges &ranges)
+    /// What the others give to this rank's share: shape (n_ranks × own_size) rows, by sender.
+    CsrMatrix from_others(const CsrMatrix &rows, const OwnedRanges &ranges)
     {
-      const std::size_t n_ranks = ranges.first.size();
+      const std::size_t n_ranks = ranges.first.size(), self = ranges.communicator.rank();
       std::vector<std::size_t> length(rows.n_rows());
       for (std::size_t row = 0; row < length.size(); ++row)
         length[row] = rows.start[row + 1] - rows.start[row];
+      std::fill_n(length.begin() + static_cast<std::ptrdiff_t>(ranges.own_first), ranges.own_size,
+                  0);
       std::vector<int> out(n_ranks), out_from(n_ranks), in(n_ranks);
       for (std::size_t r = 0; r < n_ranks; ++r)
       {
-        out_from[r] = static_cast<int>(rows.start[ranges.first[r]]);
-        out[r] = static_cast<int>(rows.start[ranges.first[r] + ranges.size[r]]) - out_from[r];
+        const std::size_t from = rows.start[ranges.first[r]],
+                          to = rows.start[ranges.first[r] + ranges.size[r]];
+        out_from[r] = static_cast<int>(from);
+        out[r] = r == self ? 0 : static_cast<int>(to - from);
       }
       MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, ranges.communicator.mpi);
       CsrMatrix received;
@@ -57,17 +61,53 @@ namespace plumbline::algebra
       return received;
     }
 
-    /// Rows first ... first + n - 1 alone.
-    CsrMatrix slice(const CsrMatrix &rows, std::size_t first, std::size_t n)
+    /// Adds one row of a matrix to the last row of another, which begins at `begin`.
+    void add_to_last(const CsrMatrix &from, std::size_t row, std::size_t begin, CsrMatrix &sum)
     {
-      const auto at = [](const auto &data, std::size_t i)
-      { return data.begin() + static_cast<std::ptrdiff_t>(i); };
-      const std::size_t from = rows.start[first], to = rows.start[first + n];
-      CsrMatrix result{{at(rows.start, first), at(rows.start, first + n + 1)},
-                       {at(rows.column, from), at(rows.column, to)},
-                       {at(rows.value, from), at(rows.value, to)}};
-      for (std::size_t &start : result.start)
-        start -= from;
+      std::size_t k = from.start[row];
+      const std::size_t end = from.start[row + 1];
+      if (k == end)
+        return;
+      const auto first = static_cast<std::ptrdiff_t>(begin);
+      const std::vector<unsigned int> column(sum.column.begin() + first, sum.column.end());
+      const std::vector<double> value(sum.value.begin() + first, sum.value.end());
+      sum.column.resize(begin);
+      sum.value.resize(begin);
+      for (std::size_t i = 0; i < column.size() || k < end;)
+      {
+        const bool has_old = i < column.size() && (k == end || column[i] <= from.column[k]),
+                   has_new = k < end && (i == column.size() || from.column[k] <= column[i]);
+        sum.column.push_back(has_old ? column[i] : from.column[k]);
+        sum.value.push_back((has_old ? value[i] : 0) + (has_new ? from.value[k] : 0));
+        i += has_old ? 1 : 0;
+        k += has_new ? 1 : 0;
+      }
+    }
+
+    /// Whether all entries are in rows of this rank.
+    bool is_own(const CsrMatrix &rows, const OwnedRanges &ranges)
+    {
+      return rows.start[ranges.own_first] == 0 &&
+             rows.start[ranges.own_first + ranges.own_size] == rows.start.back();
+    }
+
+    /// max |a_ij + b_ij|.
+    double largest_of_sum(const CsrView &a, const CsrView &b)
+    {
+      double result = 0;
+      for (std::size_t row = 0; row < a.n_rows(); ++row)
+      {
+        std::size_t k = a.start[row], l = b.start[row];
+        const std::size_t end = a.start[row + 1], end_of_b = b.start[row + 1];
+        while (k < end || l < end_of_b)
+        {
+          const bool has_a = k < end && (l == end_of_b || a.column[k] <= b.column[l]),
+                     has_b = l < end_of_b && (k == end || b.column[l] <= a.column[k]);
+          result = std::max(result, std::abs((has_a ? a.value[k] : 0) + (has_b ? b.value[l] : 0)));
+          k += has_a ? 1 : 0;
+          l += has_b ? 1 : 0;
+        }
+      }
       return result;
     }
 
@@ -117,7 +157,7 @@ namespace plumbline::algebra
 
     /// Half the even columns of every second row if the columns of rows 2 i and 2 i + 1 are the
     /// same pairs 2 j, 2 j + 1; else empty.
-    std::vector<unsigned int> block_columns(const CsrMatrix &rows)
+    std::vector<unsigned int> block_columns(const CsrView &rows)
     {
       std::vector<unsigned int> columns;
       if (rows.n_rows() % 2 != 0)
@@ -176,17 +216,51 @@ namespace plumbline::algebra
     return rows;
   }
 
-  DistributedMatrix::DistributedMatrix(const CsrMatrix &rows, const OwnedRanges &ranges)
-      : ranges_(ranges), given_(rows)
+  CsrView::CsrView(const CsrMatrix &rows) : CsrView(rows, 0, rows.n_rows()) {}
+
+  CsrView::CsrView(const CsrMatrix &rows, std::size_t first, std::size_t n)
   {
-    const std::size_t n_ranks = ranges.first.size(), n = ranges.own_size;
-    if (n_ranks > 1)
+    if (rows.start.empty())
+      return;
+    Assert(rows.start[first] == 0, dealii::ExcInternalError());
+    const std::size_t n_entries = rows.start[first + n];
+    start = {rows.start.data() + first, n + 1};
+    column = {rows.column.data(), n_entries};
+    value = {rows.value.data(), n_entries};
+  }
+
+  CsrMatrix sum_own_rows(const CsrMatrix &rows, const OwnedRanges &ranges)
+  {
+    const std::size_t n_ranks = ranges.first.size(), n = ranges.own_size,
+                      self = ranges.communicator.rank();
+    const CsrMatrix others = from_others(rows, ranges);
+    const std::size_t most =
+        rows.start[ranges.own_first + n] - rows.start[ranges.own_first] + others.column.size();
+    CsrMatrix sum;
+    sum.column.reserve(most);
+    sum.value.reserve(most);
+    sum.start.assign(ranges.own_first + 1, 0);
+    for (std::size_t row = 0; row < n; ++row)
     {
-      const CsrMatrix all = from_all(rows, ranges);
-      sum_ = slice(all, 0, n);
-      for (std::size_t rank = 1; rank < n_ranks; ++rank)
-        sum_ = add(sum_, slice(all, rank * n, n));
+      const std::size_t begin = sum.start.back();
+      for (std::size_t rank = 0; rank < n_ranks; ++rank) // in this order on every rank
+        if (rank == self)
+          add_to_last(rows, ranges.own_first + row, begin, sum);
+        else
+          add_to_last(others, rank * n + row, begin, sum);
+      sum.start.push_back(sum.column.size());
     }
+    sum.start.resize(rows.start.size(), sum.column.size());
+    return sum;
+  }
+
+  DistributedMatrix::DistributedMatrix(const CsrMatrix &rows, const OwnedRanges &ranges)
+      : ranges_(ranges)
+  {
+    const bool is_sum = !ranges.communicator.any(!is_own(rows, ranges));
+    if (!is_sum)
+      sum_ = sum_own_rows(rows, ranges);
+    own_ = CsrView(is_sum ? rows : sum_, ranges.own_first, ranges.own_size);
     block_column_ = block_columns(own());
   }
 
@@ -194,7 +268,7 @@ namespace plumbline::algebra
   void DistributedMatrix::multiply_blocks(std::size_t first, std::size_t last, const double *x,
                                           double *y) const
   {
-    const CsrMatrix &rows = own();
+    const CsrView &rows = own();
     for (std::size_t pair = first; pair < last; ++pair)
     {
       const std::size_t start = rows.start[2 * pair], next = rows.start[2 * pair + 1];
@@ -215,7 +289,7 @@ namespace plumbline::algebra
                      ranges_.communicator.mpi);
       all = gathered.data();
     }
-    const CsrMatrix &rows = own();
+    const CsrView &rows = own();
     constexpr unsigned int grain = 128;
     const std::size_t begin = std::max(first_row, ranges_.own_first) - ranges_.own_first;
     if (!block_column_.empty() && begin == 0)
@@ -243,7 +317,7 @@ namespace plumbline::algebra
 
   double DistributedMatrix::asymmetry() const
   {
-    const CsrMatrix &rows = own();
+    const CsrView &rows = own();
     const std::size_t n = ranges_.size_of_all();
     CsrMatrix transposed{std::vector<std::size_t>(n + 1),
                          std::vector<unsigned int>(rows.column.size()),
@@ -259,19 +333,29 @@ namespace plumbline::algebra
         transposed.column[place] = static_cast<unsigned int>(ranges_.own_first + row);
         transposed.value[place] = -rows.value[e];
       }
-    const auto largest = [&](const std::vector<double> &values)
-    {
-      double result = 0;
-      for (const double value : values)
-        result = std::max(result, std::abs(value));
-      return ranges_.communicator.largest(result);
-    };
+    double largest = 0;
+    for (const double value : rows.value)
+      largest = std::max(largest, std::abs(value));
     const DistributedMatrix other(transposed, ranges_);
-    return largest(add(rows, other.own()).value) / largest(rows.value);
+    return ranges_.communicator.largest(largest_of_sum(rows, other.own())) /
+           ranges_.communicator.largest(largest);
   }
 
-  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrMatrix &own,
-                                                     const OwnedRanges &ranges)
+  double DistributedMatrix::largest_row_sum() const
+  {
+    const CsrView &rows = own();
+    double largest = 0;
+    for (std::size_t row = 0; row < rows.n_rows(); ++row)
+    {
+      double sum = 0;
+      for (std::size_t e = rows.start[row]; e < rows.start[row + 1]; ++e)
+        sum += std::abs(rows.value[e]);
+      largest = std::max(largest, sum);
+    }
+    return ranges_.communicator.largest(largest);
+  }
+
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrView &own, const OwnedRanges &ranges)
   {
     std::vector<unsigned int> length(own.n_rows() + 1); // one more, deal.II looks at the first
     for (std::size_t i = 0; i < own.n_rows(); ++i)

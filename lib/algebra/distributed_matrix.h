@@ -2,6 +2,7 @@
 
 #include "algebra/csr_matrix.h"
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -25,19 +26,44 @@ namespace plumbline::algebra
     dealii::IndexSet own() const;
   };
 
+  /// Rows of a `CsrMatrix` that somebody else keeps.
+  struct CsrView
+  {
+    dealii::ArrayView<const std::size_t> start; ///< shape (n_rows + 1), or empty; from 0
+    dealii::ArrayView<const unsigned int> column;
+    dealii::ArrayView<const double> value;
+
+    CsrView() = default;
+    CsrView(const CsrMatrix &rows);
+    /// Rows first ... first + n - 1. @pre  those before are empty
+    CsrView(const CsrMatrix &rows, std::size_t first, std::size_t n);
+
+    std::size_t n_rows() const { return start.size() == 0 ? 0 : start.size() - 1; }
+  };
+
+  /// This rank's rows of the sum of what all ranks give: each sends what it has of the rows of
+  /// others to their owners. Those of others are empty in the result.
+  /// @param rows  any rows, shape (n, any number of columns); < 2^31 entries on each rank
+  /// @return      of the same shape; the same on any number of ranks but for the order of sums
+  /// @note Collective.
+  CsrMatrix sum_own_rows(const CsrMatrix &rows, const OwnedRanges &ranges);
+
   /// A square sparse matrix of which every rank has its share of the rows, and all their columns.
   class DistributedMatrix
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// The sum of what all ranks give: entries of other ranks' rows are sent to them.
-    /// @param rows  any rows, shape (n, n), < 2^31 entries; on one rank a reference is kept
+    /// The sum of what all ranks give. A reference is kept if none gives rows of another, as after
+    /// `sum_own_rows`; else this rank's rows are summed here, a copy.
+    /// @param rows  any rows, shape (n, n), < 2^31 entries
     /// @note Collective.
     DistributedMatrix(const CsrMatrix &rows, const OwnedRanges &ranges);
+    DistributedMatrix(const DistributedMatrix &) = delete;
+    DistributedMatrix &operator=(const DistributedMatrix &) = delete;
 
     const OwnedRanges &ranges() const { return ranges_; }
-    const CsrMatrix &own() const { return sum_.start.empty() ? given_ : sum_; }
+    const CsrView &own() const { return own_; }
 
     /// y = A x, threads sharing the rows; the same on any number of them. Values of y before
     /// first_row stay as they are. @note Collective.
@@ -46,12 +72,14 @@ namespace plumbline::algebra
     /// max |A_ij - A_ji| / max |A_ij|; takes a copy of the rows. @note Collective.
     double asymmetry() const;
 
+    double largest_row_sum() const; ///< ‖A‖_∞. @note Collective.
+
   private:
     void multiply_blocks(std::size_t first, std::size_t last, const double *x, double *y) const;
 
     const OwnedRanges &ranges_;
-    const CsrMatrix &given_;
-    CsrMatrix sum_; ///< empty on one rank
+    CsrMatrix sum_; ///< empty where each rank gives its own rows
+    CsrView own_;
     /// Half the even columns of every second row, if all is blocks of 2 x 2: a quarter of the
     /// indices are read, and memory is what a product waits for. Else empty.
     std::vector<unsigned int> block_column_;
@@ -60,6 +88,5 @@ namespace plumbline::algebra
   /// A copy of a square matrix.
   /// @param own  this rank's share of the rows
   /// @note Collective.
-  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrMatrix &own,
-                                                     const OwnedRanges &ranges);
+  dealii::TrilinosWrappers::SparseMatrix to_trilinos(const CsrView &own, const OwnedRanges &ranges);
 } // namespace plumbline::algebra

@@ -15,7 +15,7 @@ namespace plumbline::algebra
     /// Couplings below this fraction of the diagonal do not join nodes into ML's aggregates. At
     /// most .02, which suits finite elements, but below the strongest coupling of all but a few
     /// rows: rows of many small entries would otherwise not be coarsened at all.
-    double aggregation_threshold(const CsrMatrix &own, const OwnedRanges &ranges,
+    double aggregation_threshold(const CsrView &own, const OwnedRanges &ranges,
                                  unsigned int n_components)
     {
       std::vector<double> strongest(own.n_rows() + 1, 1); // one more, a rank may have none
@@ -71,7 +71,7 @@ namespace plumbline::algebra
   } // namespace
 
   template <int dim>
-  Multigrid::Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
+  Multigrid::Multigrid(const CsrView &own, const OwnedRanges &ranges, unsigned int n_components,
                        const std::vector<dealii::Point<dim>> &nodes)
       : entries_(to_trilinos(own, ranges))
   {
@@ -88,8 +88,8 @@ namespace plumbline::algebra
     cycle_.initialize(entries_, parameters);
   }
 
-  template Multigrid::Multigrid(const CsrMatrix &, const OwnedRanges &, unsigned int,
+  template Multigrid::Multigrid(const CsrView &, const OwnedRanges &, unsigned int,
                                 const std::vector<dealii::Point<2>> &);
-  template Multigrid::Multigrid(const CsrMatrix &, const OwnedRanges &, unsigned int,
+  template Multigrid::Multigrid(const CsrView &, const OwnedRanges &, unsigned int,
                                 const std::vector<dealii::Point<3>> &);
 } // namespace plumbline::algebra

@@ -19,7 +19,7 @@ namespace plumbline::algebra
     ///                      the near-null modes then, besides the constants
     /// @note Collective. What Trilinos throws is thrown. Instantiated for dim = 2 and 3.
     template <int dim>
-    Multigrid(const CsrMatrix &own, const OwnedRanges &ranges, unsigned int n_components,
+    Multigrid(const CsrView &own, const OwnedRanges &ranges, unsigned int n_components,
               const std::vector<dealii::Point<dim>> &nodes);
 
     /// y ≈ A⁻¹ x. @note Collective.

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-#include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/solver_bicgstab.h>
@@ -121,7 +120,7 @@ namespace plumbline::algebra
 
     void check_rows(const DistributedMatrix &matrix, const SparseOptions &options)
     {
-      const CsrMatrix &rows = matrix.own();
+      const CsrView &rows = matrix.own();
       int bad = none;
       for (std::size_t i = rows.n_rows(); i-- > 0;)
         if (rows.start[i] == rows.start[i + 1])
@@ -135,7 +134,7 @@ namespace plumbline::algebra
     /// Of this rank's rows. @throws NumericalError  an entry is missing, on all ranks
     std::vector<double> find_diagonal(const DistributedMatrix &matrix, const SparseOptions &options)
     {
-      const CsrMatrix &rows = matrix.own();
+      const CsrView &rows = matrix.own();
       std::vector<double> result(rows.n_rows());
       int bad = none;
       for (std::size_t i = rows.n_rows(); i-- > 0;)
@@ -333,14 +332,12 @@ namespace plumbline::algebra
     /// @param who  opens messages
     /// @throws NumericalError  more than the solver was to leave
     double check_residual(const DistributedMatrix &matrix, const Vector &x, const Vector &b,
-                          const SparseOptions &options, const std::string &who,
-                          const Communicator &communicator)
+                          const SparseOptions &options, const std::string &who)
     {
       Vector residual(b);
       // A x cannot be computed more accurately than this
       const double norm = b.l2_norm(), scale = norm > 0 ? norm : 1;
-      const double round_off =
-          10 * eps * communicator.largest(largest_row_sum(matrix.own())) * x.l2_norm() / scale;
+      const double round_off = 10 * eps * matrix.largest_row_sum() * x.l2_norm() / scale;
       const double allowed = options.solver == SparseSolver::direct
                                  ? largest_residual
                                  : 10 * options.tolerance + std::min(round_off, largest_residual);
@@ -378,10 +375,9 @@ namespace plumbline::algebra
                        communicator.mpi);
 
     SparseSolution solution{};
-    const CsrMatrix &own = matrix.own();
-    solution.bytes = dealii::MemoryConsumption::memory_consumption(own.start) +
-                     dealii::MemoryConsumption::memory_consumption(own.column) +
-                     dealii::MemoryConsumption::memory_consumption(own.value);
+    const CsrView &own = matrix.own();
+    solution.bytes = own.start.size() * sizeof(own.start[0]) +
+                     own.column.size() * (sizeof(own.column[0]) + sizeof(own.value[0]));
     solution.n_nonzeros =
         dealii::Utilities::MPI::sum(static_cast<std::uint64_t>(own.value.size()), communicator.mpi);
     solution.solver = settle(options, n, solution.n_nonzeros);
@@ -389,7 +385,7 @@ namespace plumbline::algebra
                             "' (Solver/linear solver, Solver/iteration) of " + std::to_string(n) +
                             " unknowns";
     together(who, communicator, [&] { solve_by(matrix, x, b, options, solution); });
-    solution.relative_residual = check_residual(matrix, x, b, options, who, communicator);
+    solution.relative_residual = check_residual(matrix, x, b, options, who);
     solution.values.resize(n);
     MPI_Allgatherv(x.begin(), static_cast<int>(ranges.own_size), MPI_DOUBLE, solution.values.data(),
                    ranges.size.data(), ranges.first.data(), MPI_DOUBLE, communicator.mpi);

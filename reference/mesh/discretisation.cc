@@ -1,5 +1,6 @@
 #include "reference/mesh/discretisation.h"
 
+#include "algebra/distributed_matrix.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/limit_proof.h"
@@ -298,7 +299,11 @@ namespace plumbline::reference
             [&] { matrix = assemble_all(problem_, *space_, *cells_, options_, communicator()); });
         is_exact_ = !communicator().any(!matrix.is_exact);
         way_ = matrix.way;
-        set_rows(method::part(std::move(matrix.rows), space_->n_free() * problem_.n_components));
+        const std::size_t n = space_->n_free() * problem_.n_components;
+        if (communicator().n_ranks() > 1)
+          matrix.rows = algebra::sum_own_rows(
+              matrix.rows, algebra::OwnedRanges(n, problem_.n_components, communicator()));
+        set_rows(method::part(std::move(matrix.rows), n));
       }
 
       MeshField field(const Vector &u, const std::vector<double> &constrained) const

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace plumbline::reference
 {
@@ -31,31 +33,98 @@ namespace plumbline::reference
       }
     };
 
+    /// The first edges of groups in the order of assembly, and the end of the last.
+    std::vector<std::size_t> group_starts(const EdgeForm &form)
+    {
+      std::vector<std::size_t> starts;
+      for (std::size_t e = 0; e < form.n_active; ++e)
+        if (e == 0 || form.edges[e].node[0] != form.edges[e - 1].node[0])
+          starts.push_back(e);
+      starts.push_back(form.n_active);
+      return starts;
+    }
+
+    /// What this rank has of the assembly.
+    struct Share
+    {
+      Share(const MeshSpace &space, const EdgeForm &form, const base::Communicator &communicator)
+          : group_start(group_starts(form)), has_row(space.n_dofs())
+      {
+        std::tie(first_group, last_group) = communicator.owned_range(group_start.size() - 1);
+        std::tie(first_node, last_node) = communicator.owned_range(space.n_free());
+        for (std::size_t e = group_start[first_group]; e < group_start[last_group]; ++e)
+          for (unsigned int k = 0; k < form.edges[e].n_nodes; ++k)
+            has_row[form.edges[e].node[k]] = 1;
+        for (std::size_t node = first_node; node < last_node; ++node)
+          has_row[node] = 1;
+      }
+
+      /// Whether this rank gives what one alone must give to a pair of nodes, one of them free.
+      bool owns(unsigned int i, unsigned int j) const
+      {
+        const std::size_t first = std::min(i, j); // free ones have the lower numbers
+        return first_node <= first && first < last_node;
+      }
+
+      std::vector<std::size_t> group_start; ///< of all ranks
+      std::size_t first_group = 0, last_group = 0;
+      std::size_t first_node = 0, last_node = 0; ///< free ones that it owns
+      std::vector<char> has_row; ///< of all nodes: those it owns, and those of its groups
+    };
+
+    /// Whether two boxes share a point.
+    bool meet(const geometry::Box &a, const geometry::Box &b)
+    {
+      return a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] && a.lower[1] <= b.upper[1] &&
+             b.lower[1] <= a.upper[1];
+    }
+
+    /// Around the nodes of a share.
+    geometry::Box box_of(const MeshSpace &space, const Share &share)
+    {
+      constexpr double far = std::numeric_limits<double>::max();
+      geometry::Box box{Point<2>(far, far), Point<2>(-far, -far)};
+      for (std::size_t dof = 0; dof < space.n_dofs(); ++dof)
+        for (unsigned int d = 0; d < 2 && share.has_row[dof] != 0; ++d)
+        {
+          box.lower[d] = std::min(box.lower[d], space.support(dof)[d]);
+          box.upper[d] = std::max(box.upper[d], space.support(dof)[d]);
+        }
+      return box;
+    }
+
+    /// Places of pairs of nodes of which the share has a row, in both orders.
     HalfMatrix make_half(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
-                         double horizon, unsigned int n_entries)
+                         double horizon, unsigned int n_entries, const Share &share)
     {
       std::vector<Point<2>> points;
       for (std::size_t dof = 0; dof < space.n_dofs(); ++dof)
         points.push_back(space.support(dof));
       const geometry::BoxSearch<2> nodes = search_points(points);
+      const geometry::Box all = box_of(space, share);
       const double largest = *std::max_element(form.radius.begin(), form.radius.end());
       std::vector<std::vector<unsigned int>> columns(space.n_dofs());
-      in_parallel(
-          space.n_dofs(),
-          [&](std::size_t first, std::size_t last)
-          {
-            std::vector<unsigned int> found, own;
-            for (std::size_t row = first; row < last; ++row)
-            {
-              const auto i = static_cast<unsigned int>(row);
-              nodes.find(box_about(points[row], horizon + form.radius[row] + largest), found);
-              own.clear();
-              for (const unsigned int j : found)
-                if ((i < space.n_free() || j < space.n_free()) && ways(i, j) != PairWay::none)
-                  own.push_back(j);
-              columns[row] = own; // no longer than it must be
-            }
-          });
+      in_parallel(space.n_dofs(),
+                  [&](std::size_t first, std::size_t last)
+                  {
+                    std::vector<unsigned int> found, own;
+                    for (std::size_t row = first; row < last; ++row)
+                    {
+                      const auto i = static_cast<unsigned int>(row);
+                      const geometry::Box near =
+                          box_about(points[row], horizon + form.radius[row] + largest);
+                      if (!meet(near, all))
+                        continue;
+                      nodes.find(near, found);
+                      own.clear();
+                      for (const unsigned int j : found)
+                        if ((share.has_row[i] != 0 || share.has_row[j] != 0) &&
+                            (i < space.n_free() || j < space.n_free()) &&
+                            ways(i, j) != PairWay::none)
+                          own.push_back(j);
+                      columns[row] = own; // no longer than it must be
+                    }
+                  });
       HalfMatrix half;
       half.start.assign(1, 0);
       for (const auto &row : columns)
@@ -90,29 +159,17 @@ namespace plumbline::reference
       }
     }
 
-    /// The first edges of groups in the order of assembly, and the end of the last.
-    std::vector<std::size_t> group_starts(const EdgeForm &form)
-    {
-      std::vector<std::size_t> starts;
-      for (std::size_t e = 0; e < form.n_active; ++e)
-        if (e == 0 || form.edges[e].node[0] != form.edges[e - 1].node[0])
-          starts.push_back(e);
-      starts.push_back(form.n_active);
-      return starts;
-    }
-
     /// Sum of all groups of this rank's share.
     template <unsigned int n>
     void add_groups(const MeshSpace &space, const EdgeForm &form, const PairWays &ways,
                     const physics::Kernel<2> &kernel, const WholePotential &whole,
-                    const base::Communicator &communicator, HalfMatrix &half)
+                    const Share &share, HalfMatrix &half)
     {
       const typename EdgeIntegrals<n>::Tables potential(kernel, 0);
       const EdgeGroups<n> groups(space, form, ways, potential, whole);
-      const std::vector<std::size_t> starts = group_starts(form);
-      const auto [first, last] = communicator.owned_range(starts.size() - 1);
-      std::vector<std::size_t> own(last - first);
-      std::iota(own.begin(), own.end(), first);
+      const std::vector<std::size_t> &starts = share.group_start;
+      std::vector<std::size_t> own(share.last_group - share.first_group);
+      std::iota(own.begin(), own.end(), share.first_group);
       using Scratch = typename EdgeGroups<n>::Scratch;
       dealii::WorkStream::run(
           own.begin(), own.end(),
@@ -121,9 +178,9 @@ namespace plumbline::reference
           [&](const EdgeGroup &group) { add<n>(group, half); }, Scratch(), EdgeGroup());
     }
 
-    /// Take off half of ∬ C φ_i(x) φ_j(x), the mass matrix times ∫C.
-    void subtract_mass(const MeshSpace &space, double of_ball, unsigned int n_entries,
-                       HalfMatrix &half)
+    /// Take off half of ∬ C φ_i(x) φ_j(x), the mass matrix times ∫C, of pairs that the share owns.
+    void subtract_mass(const MeshSpace &space, const Share &own, double of_ball,
+                       unsigned int n_entries, HalfMatrix &half)
     {
       for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
       {
@@ -131,7 +188,7 @@ namespace plumbline::reference
         const double share = of_ball * space.map(cell).determinant({}) / 24;
         for (unsigned int a = 0; a < 3; ++a)
           for (unsigned int b = 0; b < 3; ++b)
-            if (dof[a] < space.n_free() || dof[b] < space.n_free())
+            if (own.owns(dof[a], dof[b]))
               half.value[half.find(dof[a], dof[b]) * n_entries] -= a == b ? share : .5 * share;
       }
     }
@@ -155,8 +212,9 @@ namespace plumbline::reference
     class Entries
     {
     public:
-      Entries(const EdgeForm &form, const std::vector<Constant> &constants, const HalfMatrix &half)
-          : form_(form), constants_(constants), half_(half)
+      Entries(const EdgeForm &form, const Share &own, const std::vector<Constant> &constants,
+              const HalfMatrix &half)
+          : form_(form), own_(own), constants_(constants), half_(half)
       {
       }
 
@@ -168,13 +226,14 @@ namespace plumbline::reference
         for (unsigned int e = 0; e < n; ++e)
           value[e] = -(half_.value[k * n + e] + half_.value[other * n + e]);
         for (const Constant &constant : constants_)
-          if (constant.ways(i, j) == PairWay::whole)
+          if (own_.owns(i, j) && constant.ways(i, j) == PairWay::whole)
             value[0] -= constant.value * (form_.integral[i] * form_.integral[j]);
         return value;
       }
 
     private:
       const EdgeForm &form_;
+      const Share &own_;
       const std::vector<Constant> &constants_;
       const HalfMatrix &half_;
     };
@@ -252,24 +311,21 @@ namespace plumbline::reference
                    const base::Communicator &communicator, std::uint64_t *n_pairs)
     {
       const EdgeForm form(space);
-      HalfMatrix half =
-          make_half(space, form, PairWays(space, form, parts.front()), parts.front().horizon(), n);
-      const bool is_first = communicator.rank() == 0; // of ranks: what one alone must give
+      const Share share(space, form, communicator);
+      HalfMatrix half = make_half(space, form, PairWays(space, form, parts.front()),
+                                  parts.front().horizon(), n, share);
       std::vector<Constant> constants;
       for (const physics::Kernel<2> &part : parts)
       {
         const PairWays ways(space, form, part);
         const WholePotential whole(part, reach(form, ways), form.longest);
-        add_groups<n>(space, form, ways, part, whole, communicator, half);
-        if (is_first)
-        {
-          subtract_mass(space, part.moment({0, 0}), n, half);
-          constants.push_back({ways, whole.constant()});
-        }
+        add_groups<n>(space, form, ways, part, whole, share, half);
+        subtract_mass(space, share, part.moment({0, 0}), n, half);
+        constants.push_back({ways, whole.constant()});
       }
       if (n_pairs != nullptr)
         *n_pairs = half.n_pairs;
-      return combine(space, Entries<n>(form, constants, half), half);
+      return combine(space, Entries<n>(form, share, constants, half), half);
     }
 
     /// Why a kernel whose profile has no breaks cannot have its matrix; empty: it can.

@@ -21,8 +21,9 @@ namespace plumbline::reference
   /// δ = 3 h to 8 h, h growing twofold, to 4e-13 below; beyond, to 2e-12 at 16 h, as terms of pairs
   /// within the horizon are larger than their sum by the fourth power of their distance, or of δ,
   /// over h. Profiles with breaks are a sum of several without. Symmetric to the last bit.
-  /// Memory: 24 bytes an entry. Threads share the edges (the result does not depend on their
-  /// number), ranks of the communicator too.
+  /// Memory: 24 bytes an entry; on several ranks an entry of the rows of their nodes and of edges
+  /// that they integrate, and those columns of rows within the horizon. Threads share the edges
+  /// (the result does not depend on their number), ranks of the communicator too.
   /// @pre     refuse_edges is empty
   /// @param n_pairs  of edges that this rank has integrated, if asked for
   /// @return  as MeshMatrix::rows

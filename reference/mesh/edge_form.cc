@@ -42,7 +42,7 @@ namespace plumbline::reference
     class Edges
     {
     public:
-      explicit Edges(const MeshSpace &space) : space_(space) {}
+      explicit Edges(const MeshSpace &space) : space_(space) { all.reserve(count(space)); }
 
       Edge &between(unsigned int a, unsigned int b)
       {
@@ -59,6 +59,18 @@ namespace plumbline::reference
       std::vector<Edge> all;
 
     private:
+      /// A vector that grows would take three times the memory for a moment.
+      static std::size_t count(const MeshSpace &space)
+      {
+        std::vector<std::pair<unsigned int, unsigned int>> ends;
+        ends.reserve(n_corners * space.mesh().cells.size());
+        for (std::size_t cell = 0; cell < space.mesh().cells.size(); ++cell)
+          for (unsigned int k = 0; k < n_corners; ++k)
+            ends.push_back(std::minmax(space.dofs(cell)[k], space.dofs(cell)[next[k]]));
+        std::sort(ends.begin(), ends.end());
+        return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+      }
+
       const MeshSpace &space_;
       std::map<std::pair<unsigned int, unsigned int>, std::size_t> index_;
     };

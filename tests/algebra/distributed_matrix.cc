@@ -62,3 +62,42 @@ TEST(DistributedMatrix, MultiplyBlocksAsTheyMultiplyEntries)
     column = (column + 1) % (2 * n_pairs);
   expect_products(rows, ranges);
 }
+
+TEST(DistributedMatrix, SumsRowsOnTheirOwnersAndKeepsThemWithoutACopy)
+{
+  const base::Communicator all = base::Communicator::all();
+  constexpr unsigned int n_rows = 50;
+  const algebra::OwnedRanges ranges(n_rows, 1, all);
+  CsrMatrix rows; // of every rank, those of others, too: rank r has entries at multiples of r + 1
+  rows.start.assign(1, 0);
+  for (unsigned int row = 0; row < n_rows; ++row)
+  {
+    for (unsigned int column = 0; column < n_rows; column += all.rank() + 1)
+    {
+      rows.column.push_back(column);
+      rows.value.push_back(1 + all.rank() + row * column);
+    }
+    rows.start.push_back(rows.column.size());
+  }
+  const CsrMatrix sum = algebra::sum_own_rows(rows, ranges);
+  ASSERT_EQ(sum.n_rows(), n_rows);
+  for (unsigned int row = 0; row < n_rows; ++row)
+  {
+    const bool is_own = row >= ranges.own_first && row < ranges.own_first + ranges.own_size;
+    ASSERT_EQ(sum.start[row + 1] - sum.start[row], is_own ? n_rows : 0) << row;
+    for (unsigned int column = 0; is_own && column < n_rows; ++column)
+    {
+      double expected = 0;
+      for (unsigned int rank = 0; rank < all.n_ranks(); ++rank)
+        if (column % (rank + 1) == 0)
+          expected += 1 + rank + row * column;
+      EXPECT_EQ(sum.column[sum.start[row] + column], column);
+      EXPECT_EQ(sum.value[sum.start[row] + column], expected) << row << ", " << column;
+    }
+  }
+  const DistributedMatrix kept(sum, ranges), summed(rows, ranges);
+  EXPECT_EQ(kept.own().value.data(), sum.value.data());
+  ASSERT_EQ(summed.own().value.size(), kept.own().value.size());
+  for (std::size_t k = 0; k < sum.value.size(); ++k)
+    EXPECT_EQ(summed.own().value[k], sum.value[k]);
+}
