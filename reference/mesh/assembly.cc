@@ -258,11 +258,12 @@ namespace plumbline::reference
       }
     }
 
-    std::vector<std::size_t> cells_inside(const geometry::Mesh &mesh)
+    /// In the order in which ranks share them.
+    std::vector<std::size_t> cells_inside(const MeshSpace &space)
     {
       std::vector<std::size_t> result;
-      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-        if (mesh.cells[cell].is_inside)
+      for (std::size_t i = 0; i < space.mesh().cells.size(); ++i)
+        if (const std::size_t cell = space.cell_at(i); space.mesh().cells[cell].is_inside)
           result.push_back(cell);
       return result;
     }
@@ -335,7 +336,7 @@ namespace plumbline::reference
       return {assemble_by_edges(space, kernel, communicator), true,
               "exact by pairs of sides of the triangles"};
     const KernelEntries profile(kernel);
-    const std::vector<std::size_t> all_cells = cells_inside(space.mesh());
+    const std::vector<std::size_t> all_cells = cells_inside(space);
     const auto [first, last] = communicator.owned_range(all_cells.size());
     std::vector<std::size_t> outer_cells(all_cells.begin() + static_cast<std::ptrdiff_t>(first),
                                          all_cells.begin() + static_cast<std::ptrdiff_t>(last));

@@ -168,8 +168,16 @@ namespace plumbline::reference
           family);
     }
 
-    void keep_share(const base::Communicator &communicator, std::vector<OuterCell> &outer)
+    /// Cells of this rank, in the order in which ranks share them.
+    void keep_share(const MeshSpace &space, const base::Communicator &communicator,
+                    std::vector<OuterCell> &outer)
     {
+      std::vector<unsigned int> place(space.mesh().cells.size());
+      for (unsigned int i = 0; i < place.size(); ++i)
+        place[space.cell_at(i)] = i;
+      std::sort(outer.begin(), outer.end(),
+                [&](const OuterCell &a, const OuterCell &b)
+                { return place[a.cell] < place[b.cell]; });
       const auto [first, last] = communicator.owned_range(outer.size());
       outer.erase(outer.begin() + static_cast<std::ptrdiff_t>(last), outer.end());
       outer.erase(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(first));
@@ -321,7 +329,7 @@ namespace plumbline::reference
     const DilatationRow row(space, cells, dilatation, materials, 2 + 2 * options.refinement,
                             options.backend);
     const DilatationParts parts(space, outer, translations, rule.unit, row);
-    keep_share(communicator, outer);
+    keep_share(space, communicator, outer);
     algebra::CsrMatrix rows = make_pattern(space, outer);
 
     dealii::Threads::ThreadLocalStorage<std::optional<BlockIntegrator>> integrators;

@@ -7,6 +7,7 @@
 #include "method/sparse_motion.h"
 #include "reference/geometry_check.h"
 #include "reference/mesh/assembly.h"
+#include "reference/mesh/cell_order.h"
 #include "reference/mesh/dilatation.h"
 #include "reference/mesh/entry_check.h"
 #include "reference/mesh/inclusion_check.h"
@@ -95,13 +96,15 @@ namespace plumbline::reference
     }
 
     std::shared_ptr<const MeshSpace> make_space(const problem::Problem<2> &problem,
-                                                bool is_continuous, unsigned int degree)
+                                                bool is_continuous, unsigned int degree,
+                                                unsigned int n_ranks)
     {
       const auto mesh = mesh_of_space(problem);
       MeshSpace::Middles middles;
       for (const geometry::WholeCell &whole : problem.mesh()->wholes)
         middles.push_back(whole.middles);
-      auto space = std::make_shared<const MeshSpace>(mesh, is_continuous, degree, middles);
+      auto space = std::make_shared<const MeshSpace>(mesh, is_continuous, degree, middles,
+                                                     order_for_ranks(*mesh, n_ranks));
       if (space->n_free() == 0)
         throw NumericalError("no degree of freedom is free: every cell of the domain touches the "
                              "collar; refine the mesh");
@@ -326,8 +329,9 @@ namespace plumbline::reference
   discretise_on_mesh(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree,
                      bool exact_entries, const base::Communicator &communicator)
   {
-    return std::make_unique<GalerkinOnMesh>(problem, make_space(problem, is_continuous, degree),
-                                            exact_entries, communicator);
+    return std::make_unique<GalerkinOnMesh>(
+        problem, make_space(problem, is_continuous, degree, communicator.n_ranks()), exact_entries,
+        communicator);
   }
 
   std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous,

@@ -53,30 +53,33 @@ namespace plumbline::reference
   } // namespace
 
   MeshSpace::MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous,
-                       unsigned int degree, const Middles &middles)
+                       unsigned int degree, const Middles &middles, std::vector<unsigned int> order)
       : mesh_(std::move(mesh)), is_continuous_(is_continuous && degree > 0),
-        shapes_(cell_size(*mesh_), degree)
+        shapes_(cell_size(*mesh_), degree), order_(std::move(order))
   {
     const unsigned int n_sides = shapes_.n_vertices(), n_inner = degree > 0 ? degree - 1 : 0;
     SharedPoints shared(*mesh_);
     unsigned int n = 0;
-    dofs_.reserve(mesh_->cells.size() * shapes_.size());
-    for (std::size_t cell = 0; cell < mesh_->cells.size(); ++cell)
-    {
-      const auto &vertex = mesh_->cells[cell].vertex;
+    const std::size_t n_cells = mesh_->cells.size();
+    dofs_.resize(n_cells * shapes_.size());
+    maps_.reserve(n_cells);
+    for (std::size_t cell = 0; cell < n_cells; ++cell)
       maps_.emplace_back(mesh_->polygon(cell));
-      const std::size_t end = dofs_.size() + shapes_.size();
+    for (std::size_t i = 0; i < n_cells; ++i)
+    {
+      const std::size_t cell = cell_at(i);
+      const auto &vertex = mesh_->cells[cell].vertex;
+      unsigned int *dof = &dofs_[cell * shapes_.size()], *const end = dof + shapes_.size();
       if (is_continuous_)
       {
         for (unsigned int v = 0; v < n_sides; ++v)
-          dofs_.push_back(shared.at_vertex(vertex[v], n));
+          *dof++ = shared.at_vertex(vertex[v], n);
         for (unsigned int side = 0; side < n_sides; ++side)
           for (unsigned int k = 0; k < n_inner; ++k)
-            dofs_.push_back(
-                shared.on_side(vertex[side], vertex[(side + 1) % n_sides], k, n_inner, n));
+            *dof++ = shared.on_side(vertex[side], vertex[(side + 1) % n_sides], k, n_inner, n);
       }
-      while (dofs_.size() < end)
-        dofs_.push_back(n++);
+      while (dof != end)
+        *dof++ = n++;
     }
 
     // free ones first, in the order of the cells

@@ -17,13 +17,17 @@ namespace plumbline::reference
     /// @param degree   0 to 4; 0 is discontinuous in any case
     /// @param middles  of continuous quadratic functions, shape (n_cells); empty: sides are
     /// straight
+    /// @param order    of the cells, by which unknowns are numbered and ranks share cells; empty:
+    /// as they are
     /// @throws InputError  a mesh of both triangles and quadrilaterals
     MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous, unsigned int degree,
-              const Middles &middles = {});
+              const Middles &middles = {}, std::vector<unsigned int> order = {});
 
     const geometry::Mesh &mesh() const { return *mesh_; }
     bool is_continuous() const { return is_continuous_; }
     const CellShapes &shapes() const { return shapes_; }
+    /// The i-th cell in the order of numbering.
+    std::size_t cell_at(std::size_t i) const { return order_.empty() ? i : order_[i]; }
     const CellMap &map(std::size_t cell) const { return maps_[cell]; }
 
     std::size_t n_dofs() const { return support_.size(); }
@@ -53,6 +57,7 @@ namespace plumbline::reference
     std::shared_ptr<const geometry::Mesh> mesh_;
     bool is_continuous_;
     CellShapes shapes_;
+    std::vector<unsigned int> order_; ///< empty: cells as they are
     std::vector<CellMap> maps_;
     std::vector<unsigned int> dofs_; ///< shape (n_cells, shapes.size())
     std::vector<Point<2>> support_;
