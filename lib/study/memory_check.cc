@@ -128,6 +128,33 @@ namespace plumbline::study
       unsigned int n_ranks; ///< that share what is distributed
     };
 
+    bool is_on_mesh(const method::ProblemSize &size)
+    {
+      return !size.is_lattice() && size.depth == 0 && size.n_cells > 0;
+    }
+
+    /// Whether ranks share the rows of a mesh: all but those of free bodies by rules, and of
+    /// dilatations that are unknowns.
+    bool is_shared_on_mesh(const scene::Scene &scene, const Method &method,
+                           const method::ProblemSize &size)
+    {
+      const bool is_rule = method.family() == method::MethodFamily::meshfree;
+      return is_on_mesh(size) && !(is_rule && (size.is_body || scene.solver.is_mixed));
+    }
+
+    /// What one of several ranks has of rows: its share, and while a Galerkin matrix is assembled
+    /// half the rows within reach of its share, a square. Cells stay whole.
+    method::ProblemSize of_rank_on_mesh(method::ProblemSize size, const Method &method,
+                                        unsigned int n_ranks)
+    {
+      const double share = size.n_free / n_ranks;
+      const double halo = method.family() == method::MethodFamily::reference
+                              ? 2 * size.reach() * std::sqrt(share / size.cell_area)
+                              : 0;
+      size.n_free = std::min(size.n_free, share + halo);
+      return size;
+    }
+
     /// @param is_shared  by ranks
     /// @param more       bytes, besides those of a static solution
     MemoryEstimate estimate(const Method &method, const method::ProblemSize &size,
@@ -135,7 +162,14 @@ namespace plumbline::study
                             double more)
     {
       method::ProblemSize of_rank = size;
-      if (is_shared)
+      if (is_shared && is_on_mesh(size))
+      {
+        constexpr double of_node = 1000; // of its cell, also where expected_bytes() has it by rows
+        of_rank = of_rank_on_mesh(size, method, n_ranks);
+        if (method.family() == method::MethodFamily::meshfree)
+          more += of_node * (size.n_free - of_rank.n_free);
+      }
+      else if (is_shared)
         of_rank.depth = std::ceil(size.depth / n_ranks);
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
@@ -158,11 +192,13 @@ namespace plumbline::study
               method.expected_bytes(is_of_centroids ? of_centroids(of_rank) : of_rank) + more};
     }
 
-    MemoryEstimate estimate_solution(const Method &method, const method::ProblemSize &size,
-                                     const std::string &what, unsigned int n_ranks)
+    MemoryEstimate estimate_solution(const scene::Scene &scene, const Method &method,
+                                     const method::ProblemSize &size, const std::string &what,
+                                     unsigned int n_ranks)
     {
-      return estimate(method, size, what, n_ranks,
-                      n_ranks > 1 && method.is_distributed_in_space(size), 0);
+      const bool is_shared =
+          method.is_distributed_in_space(size) || is_shared_on_mesh(scene, method, size);
+      return estimate(method, size, what, n_ranks, n_ranks > 1 && is_shared, 0);
     }
 
     void require(const MemoryEstimate &estimate, unsigned int n_jobs)
@@ -178,17 +214,17 @@ namespace plumbline::study
     std::vector<MemoryEstimate> estimate_all(const scene::Scene &scene, const Method &method,
                                              const method::ProblemSize &size, unsigned int n_ranks)
     {
-      std::vector<MemoryEstimate> found = {estimate_solution(method, size, "", n_ranks)};
+      std::vector<MemoryEstimate> found = {estimate_solution(scene, method, size, "", n_ranks)};
       if (!is_estimated(scene, method) && (method.name() != scene.reference.method ||
                                            scene.reference.estimate == scene::Estimate::none))
         return found;
       const std::string what = "the estimate of the error of ";
       if (size.is_lattice() || method.name() == scene.reference.method)
         found.push_back(estimate_solution(
-            method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_ranks));
+            scene, method, at_level(size, {size.level.h / 2, size.level.horizon}), what, n_ranks));
       if (const auto higher = method.higher_degree();
           higher && size.is_lattice() && !scene.domain.is_in_space())
-        found.push_back(estimate_solution(*higher, size, what, n_ranks));
+        found.push_back(estimate_solution(scene, *higher, size, what, n_ranks));
       return found;
     }
 

@@ -194,6 +194,37 @@ TEST(DistributedStatics, take_the_memory_that_is_estimated)
     EXPECT_LT(estimated(n_ranks), .65 * estimated(n_ranks / 2)); // halves, and halos
 }
 
+TEST(DistributedStatics, have_the_memory_of_their_rows_of_meshes_estimated)
+{
+  const Communicator ranks = Communicator::all();
+  const Methods all = available();
+  for (const std::string name : {"P1", "FA"})
+  {
+    const scene::Scene scene = scene::parse_scene(
+        "test.prm", "subsection Domain\n set mesh = triangles\nend\nsubsection Problem\n set "
+                    "solution = x^2 + y\nend\nsubsection Methods\n set names = " +
+                        name +
+                        "\n set nodes = mesh\nend\nsubsection Study\n set m = 5\n set h = 1/60\n "
+                        "set norms = nodal "
+                        "Linf\nend\n");
+    const Methods methods = choose_methods(scene, all);
+    StaticsOptions options;
+    options.ranks = ranks;
+    RunControl control;
+    control.ranks = ranks;
+    const StudyResults results = run_study(statics_analysis(all, options), scene, methods, control);
+    ASSERT_EQ(results.records.front().failure, "");
+    const double measured = static_cast<double>(results.records.front().cost.peak_bytes);
+    const auto estimated = [&](unsigned int n_ranks)
+    { return estimate_memory(scene, methods, 0, n_ranks).front().largest.bytes; };
+    EXPECT_LT(estimated(ranks.n_ranks()), 2 * measured) << name;
+    EXPECT_GT(estimated(ranks.n_ranks()), measured / 2) << name;
+    // the cells stay, and of rows there are halos
+    EXPECT_LT(estimated(4), .7 * estimated(1)) << name;
+    EXPECT_LT(estimated(16), estimated(4)) << name;
+  }
+}
+
 TEST(DistributedStatics, count_scattered_nodes_once)
 {
   expect_same_on_all_ranks({{"Methods/names", "FA"},
