@@ -45,8 +45,10 @@ namespace plumbline::driver
     study::Analysis growth(const Asked &asked)
     {
       const auto &kept = asked.checkpoints;
-      return study::growth_analysis(kept, asked.has_frames ? damage_frames(kept.folder / "frames")
-                                                           : study::WriteDamage());
+      if (!asked.has_frames)
+        return study::growth_analysis(kept, {});
+      return study::growth_analysis(kept, damage_frames(kept.folder / "frames"),
+                                    strip_frames(kept.folder / "frames"));
     }
   } // namespace
 
@@ -62,7 +64,7 @@ namespace plumbline::driver
          report::dispersion_view, false, true},
         {"crack", "Dynamic fracture of a notched strip: tip, energies, contour plots",
          "Expected/crack fails", crack, report::crack_view, true},
-        {"grow", "Quasi-static fracture, bond by bond: load, energies, contour plots",
+        {"grow", "Fracture bond by bond, quasi-static or in motion: load, energies, contour plots",
          "Expected/growth, Expected/growth ends or the energy balance fails", growth,
          report::growth_view, true},
         {"strip", "Stationary crack: tip energy by meshfree and Galerkin methods",

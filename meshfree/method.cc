@@ -4,6 +4,7 @@
 #include "meshfree/body/corrected_rule.h"
 #include "meshfree/discretisations.h"
 #include "meshfree/fracture/breaking_network.h"
+#include "meshfree/fracture/network_motion.h"
 #include "meshfree/fracture/standing_crack.h"
 #include "meshfree/fracture/strip.h"
 #include "meshfree/lattice/crack_strip.h"
@@ -138,6 +139,15 @@ namespace plumbline::meshfree
       {
         return make_body(solid, in_space(), influence, h, backend, stretch, solver);
       }
+      method::MovingBody moving_body(const method::BreakingSolid<2> &solid,
+                                     const Kernel<2> &influence, double h,
+                                     geometry::Backend backend) const override
+      {
+        return meshfree::moving_body(
+            make_bond_network(solid, rule_.in_plane(physics::deviatoric_kernel(influence, 1)),
+                              influence, h, backend),
+            notch_tip(solid));
+      }
       double lattice_toughness(const Kernel<2> &influence, double h,
                                geometry::Backend backend) const override
       {
@@ -216,7 +226,13 @@ namespace plumbline::meshfree
                 make_bond_network(solid, quadrature(physics::deviatoric_kernel(influence, 1)),
                                   influence, h, backend),
                 stretch, solver),
-            solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back());
+            notch_tip(solid));
+      }
+
+      template <int dim>
+      static dealii::Point<2> notch_tip(const method::BreakingSolid<dim> &solid)
+      {
+        return solid.notch.empty() ? dealii::Point<2>() : solid.notch.front().back();
       }
 
       std::vector<WellBond> bonds_of(const physics::DoubleWell &law, double h,

@@ -64,6 +64,9 @@ namespace plumbline::analysis
                " needs the tangent of the forces, which this model "
                "does not have; take an explicit one");
       const bool has_limit = !scheme.is_runge_kutta && (!scheme.is_implicit() || scheme.theta < .5);
+      if (scheme.is_runge_kutta && motion.changes)
+        refuse("the scheme ", scheme.name,
+               " chooses its own steps, between which bonds cannot break; take velocity Verlet");
       if (stepping.critical_step && !stepping.shows_blow_up && has_limit &&
           stepping.step > *stepping.critical_step)
         refuse("time step = ", stepping.step, " is longer than the critical step ",
@@ -210,7 +213,7 @@ namespace plumbline::analysis
       else
         split_step(scheme, step, state, flow);
       const bool is_split = !scheme.substeps.empty();
-      if (is_split && (observer || k == n_steps))
+      if (is_split && (observer || motion.changes || k == n_steps))
         flow.apply(state);
       state.t = k == n_steps ? end : start + static_cast<double>(k) * step;
       counts.n_steps = k;
@@ -224,6 +227,8 @@ namespace plumbline::analysis
       }
       if (observer)
         observer(state);
+      if (motion.changes && motion.changes(state))
+        flow.forget();
     }
     return counts;
   }

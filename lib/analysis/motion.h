@@ -9,6 +9,12 @@ namespace plumbline::analysis
 {
   using Vector = std::vector<double>;
 
+  struct State
+  {
+    Vector u, v; ///< of size n
+    double t = 0;
+  };
+
   /// ü = a(u, t) - η u̇ for n unknowns. Lumped masses and densities are divided out; the tangent is
   /// symmetric then only if they are all the same.
   struct Motion
@@ -19,14 +25,11 @@ namespace plumbline::analysis
     /// ∂a/∂u v, symmetric; implicit schemes and critical steps need it.
     std::function<void(const Vector &u, const Vector &v, Vector &out)> tangent = {};
     double damping = 0; ///< η >= 0 [1/time]
+    /// After each step, and its observer: whether a has changed at this state, as bonds break for
+    /// good; it is evaluated anew then. Empty: a depends on u and t alone.
+    std::function<bool(const State &)> changes = {};
     /// That have a part of the unknowns each: n is this one's, and functions are collective.
     base::Communicator ranks = base::Communicator::alone();
-  };
-
-  struct State
-  {
-    Vector u, v; ///< of size n
-    double t = 0;
   };
 
   /// @param ranks  that have a part of the vectors each

@@ -62,6 +62,9 @@ namespace plumbline::analysis
     /// After each step. @return whether this one was kept
     bool observe(const State &state);
 
+    /// The forces have changed at the last state observed, as bonds broke.
+    void change(const State &state) { power_ = transient_.power(state); }
+
     const std::vector<Energies> &samples() const { return samples_; }
 
     /// max |stored + dissipated - work - what it began with| over the largest energy.

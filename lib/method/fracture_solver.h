@@ -4,6 +4,7 @@
 #include "geometry/cracks.h"
 #include "geometry/of_dimension.h"
 #include "method/breakable_body.h"
+#include "method/breaking_motion.h"
 #include "physics/kernel.h"
 #include "physics/state_based.h"
 #include "problem/fracture.h"
@@ -61,6 +62,12 @@ namespace plumbline::method
                                             const physics::Kernel<3> &influence, double h,
                                             geometry::Backend backend, problem::Stretch stretch,
                                             problem::GrowthSolver solver) const = 0;
+
+    /// A body in the plane in motion; `constrained` of the solid is not used.
+    /// @throws InputError  as breakable_body
+    virtual MovingBody moving_body(const BreakingSolid<2> &solid,
+                                   const physics::Kernel<2> &influence, double h,
+                                   geometry::Backend backend) const = 0;
 
     /// Energy of all bonds across an infinite straight line, or a plane in space, each at its limit
     /// of G = 1, per length or area.

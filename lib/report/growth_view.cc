@@ -1,3 +1,4 @@
+#include "report/breaking_view.h"
 #include "report/counted.h"
 #include "report/damage_maps.h"
 #include "report/microstructure.h"
@@ -390,6 +391,8 @@ namespace plumbline::report
     if (grown.empty())
       return view;
     const Record &record = *grown.front();
+    if (is_of_breaking(record))
+      return breaking_view(record);
     view.answer = verdict(record);
     view.parts.push_back(model_part(model(record)));
     view.parts.push_back(omitted_part(study::left_out_of_growth(record)));

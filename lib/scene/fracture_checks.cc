@@ -7,6 +7,48 @@
 
 namespace plumbline::scene
 {
+  namespace
+  {
+    /// What drives a body in motion, and how.
+    void check_breaking_motion(const Scene &scene)
+    {
+      const FractureSection &fracture = scene.fracture;
+      const DomainSection &domain = scene.domain;
+      const ProblemSection &problem = scene.problem;
+      const TimeSection &time = scene.time;
+      const std::string given = "Time/final time = " + short_number(time.final_time) +
+                                " with Fracture/toughness (bonds that break in motion) needs ";
+      const auto needs = [&](bool is_good, const std::string &what)
+      {
+        if (!is_good)
+          throw InputError(given + what);
+      };
+      needs(!domain.is_in_space(), "Domain/dimension = 2");
+      needs(fracture.stretch == Stretch::linear && !fracture.is_corrected(),
+            "Fracture/stretch = linear and Fracture/surface terms = uncorrected: other forces have "
+            "no energy to be balanced");
+      needs(domain.is_floating || !domain.fixed.empty(),
+            "Domain/fixed, the grips; write none if nothing holds or moves the body but "
+            "Problem/load and Time/initial velocity");
+      needs(domain.is_floating != problem.constraint.has_value(),
+            domain.is_floating ? "Problem/constraint empty, because Domain/fixed = none: there are "
+                                 "no grips that it could move"
+                               : "Problem/constraint, the displacement of the grips in x, y and t");
+      needs(problem.solutions.empty() && problem.loads.size() <= 1,
+            "Problem/solution empty and no more than one Problem/load, the force per volume");
+      needs(!problem.loads.empty() || problem.constraint.has_value() ||
+                !time.initial_velocity.empty(),
+            "something that moves the body: Problem/constraint, Problem/load or Time/initial "
+            "velocity");
+      needs(!scene.sampling.is_there(), "Sampling/rule = none: samples are quasi-static");
+      needs(time.initial_displacement.empty(),
+            "Time/initial displacement empty: the body is unstrained at first");
+      needs(time.schemes.size() == 1 && time.schemes.front() != "Runge-Kutta",
+            "one of Time/schemes with steps of its own, such as velocity Verlet: bonds break "
+            "between steps");
+    }
+  } // namespace
+
   void check_fracture(const Scene &scene)
   {
     const FractureSection &fracture = scene.fracture;
@@ -24,19 +66,19 @@ namespace plumbline::scene
     if (toughness.is_constant() &&
         !((domain.is_in_space() ? toughness.at({}, 0) : toughness({})) > 0))
       throw InputError(given + " must be positive: it is the fracture energy per unit area");
-    needs(!scene.crack.is_there() && !scene.time.is_dynamic(),
-          "Crack/notch = 0 and Time/final time = 0: 'plumbline grow' is quasi-static");
+    needs(!scene.crack.is_there(), "Crack/notch = 0: the notch is Domain/cracks");
     needs(scene.material.model == &lps(),
           "Material/model = LPS (bond-based for nu = 1/4 in plane strain and in three dimensions)");
     needs(is_inverse_distance(scene.kernel),
           "Kernel/type = 1/r: the critical stretch is known for that influence function");
     needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");
-    needs(domain.is_free_body && !domain.is_floating && !domain.fixed.empty(),
+    const bool is_moving = scene.time.is_dynamic();
+    needs(domain.is_free_body && (is_moving || (!domain.is_floating && !domain.fixed.empty())),
           "Domain/boundary = free and Domain/fixed, the grips");
     needs(domain.outside.empty() && !domain.collar,
           "Domain/outside empty and Domain/interaction domain = auto");
-    needs(scene.problem.solutions.empty() && scene.problem.loads.empty() &&
-              scene.problem.constraint.has_value(),
+    needs(is_moving || (scene.problem.solutions.empty() && scene.problem.loads.empty() &&
+                        scene.problem.constraint.has_value()),
           "Problem/constraint, the displacement of the grips at load 1, and neither solution nor "
           "load");
     needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres,
@@ -44,6 +86,8 @@ namespace plumbline::scene
     needs(!domain.cracks.empty(), "an initial notch in Domain/cracks, from its mouth to its tip");
     needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
           "one Study/h and one Study/m (or Study/horizon)");
+    if (is_moving)
+      check_breaking_motion(scene);
     check_analysis(scene, Analysis::growth);
   }
 } // namespace plumbline::scene

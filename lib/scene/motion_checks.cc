@@ -161,6 +161,8 @@ namespace plumbline::scene
     scene.material.model->check_motion(scene);
     if (scene.crack.is_there())
       return check_crack(scene);
+    if (scene.fracture.is_there())
+      return; // see check_fracture
     const TimeSection &time = scene.time;
     const std::string torus = "Reference/method = torus";
     require(time.is_dynamic() || !scene.reference.is_torus(),

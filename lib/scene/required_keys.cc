@@ -79,8 +79,11 @@ namespace plumbline::scene
     std::vector<std::string> missing;
     try
     {
+      const bool is_moving = analysis == "grow" && !is_nothing(value_of("Time/final time"));
       for (const RequiredKey &one : found->second.keys)
-        if (const std::string value = value_of(one.key); is_nothing(value))
+        if (is_moving && (one.key == "Domain/fixed" || one.key == "Problem/constraint"))
+          continue; // loads may move it, see check_fracture
+        else if (const std::string value = value_of(one.key); is_nothing(value))
           missing.push_back(one.key +
                             (one.meaning[0] == '=' ? " " + one.meaning : " (" + one.meaning + ")"));
       if (found->second.has_density && lacks_material(value_of))

@@ -70,6 +70,24 @@ namespace plumbline::scene
            "Fracture/breaking = steps"}};
     }
 
+    /// Bonds break in equilibrium, or in motion.
+    std::vector<Use> uses_of_fracture(const Scene &scene)
+    {
+      const bool is_moving = scene.fracture.is_there() && scene.time.is_dynamic(),
+                 is_still = !is_moving;
+      const std::string still = "Time/final time = 0: quasi-static fracture";
+      return {{"Fracture/breaking", is_still, still},
+              {"Fracture/ties", is_still, still},
+              {"Fracture/solver", is_still, still},
+              {"Fracture/max load", is_still, still},
+              {"Fracture/min reaction", is_still, still},
+              {"Fracture/checkpoint interval", is_still, still},
+              {"Expected/growth", is_still, still + "; in motion there is Expected/values"},
+              {"Expected/growth ends", is_still, still},
+              {"Expected/crack", is_moving || scene.crack.is_there(),
+               "Crack/notch, or Fracture/toughness with Time/final time"}};
+    }
+
     std::vector<Use> uses_of_material(const Scene &scene)
     {
       const KernelSection &kernel = scene.kernel;
@@ -138,8 +156,7 @@ namespace plumbline::scene
       std::string key, other;
     };
 
-    const std::vector<Companion> companions = {{"Expected/crack", "Crack/notch"},
-                                               {"Expected/growth", "Fracture/toughness"},
+    const std::vector<Companion> companions = {{"Expected/growth", "Fracture/toughness"},
                                                {"Expected/growth ends", "Fracture/toughness"},
                                                {"Expected/strip", "Strip/length"},
                                                {"Expected/sampling", "Sampling/rule"}};
@@ -153,7 +170,8 @@ namespace plumbline::scene
 
   std::optional<UnusedKey> find_unused_key(const Keys &keys, const Scene &scene)
   {
-    for (const auto &uses : {uses_of_study(scene), uses_of_material(scene), uses_of_field(scene)})
+    for (const auto &uses : {uses_of_study(scene), uses_of_material(scene), uses_of_fracture(scene),
+                             uses_of_field(scene)})
       for (const Use &use : uses)
         if (!use.is_there && keys.is_changed(use.key))
           return unused(keys, use.key, use.needs);

@@ -316,9 +316,8 @@ namespace plumbline::study
             "has 1/k of the strains; to keep the material, lower Crack/load"};
   }
 
-  double rayleigh_ratio()
+  double rayleigh_ratio(double k)
   {
-    constexpr double k = 1. / 3;
     double low = 0, high = 1;
     while (high - low > 1e-15)
     {

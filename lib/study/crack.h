@@ -132,9 +132,10 @@ namespace plumbline::study
   /// this strain of the grips a warning says so.
   constexpr double large_strain = .1;
 
-  /// Speed of Rayleigh waves over that of shear waves where λ = μ, .9194: the root c of
-  /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c², k = μ/(λ + 2μ) = 1/3.
-  double rayleigh_ratio();
+  /// Speed of Rayleigh waves over that of shear waves: the root c of
+  /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c².
+  /// @param k  μ/(λ + 2μ); 1/3 where λ = μ, where the ratio is .9194
+  double rayleigh_ratio(double k = 1. / 3);
 
   std::vector<std::string> warnings_of_strain(double strain);
 

@@ -55,7 +55,7 @@ namespace plumbline::study
       }
 
       /// Take in sides that touch them, and all that these reach.
-      void grow(std::vector<CrackSide> &sides)
+      void grow(std::vector<CrackSide> &sides, std::size_t event)
       {
         for (bool is_growing = true; is_growing;)
         {
@@ -64,6 +64,7 @@ namespace plumbline::study
             if (!side.is_joined && touches(side.ends))
             {
               side.is_joined = is_growing = true;
+              side.joined = event;
               insert(side.ends);
             }
         }
@@ -124,7 +125,7 @@ namespace plumbline::study
         if (are_next(model, model.bonds[b]))
           path.sides.push_back({side_between(model, model.bonds[b]), e, false});
       if (path.sides.size() > before)
-        joined.grow(path.sides);
+        joined.grow(path.sides, e);
       for (const CrackSide &side : path.sides)
         for (const Point<2> &end : side.ends)
           if (side.is_joined && is_farther(model, end, tip))

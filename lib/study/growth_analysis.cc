@@ -10,6 +10,7 @@
 #include "physics/expression.h"
 #include "scene/origin.h"
 #include "scene/problem.h"
+#include "study/breaking_analysis.h"
 #include "study/sampling.h"
 #include "study/seeds.h"
 #include "study/strip_growth.h"
@@ -76,16 +77,19 @@ namespace plumbline::study
       method::BreakingSolid<dim> solid;
       set_boxes(scene, solid);
       solid.notch = scene.domain.cracks;
-      const physics::Expression constrained("Problem/constraint", *scene.problem.constraint,
-                                            scene.names(horizon)),
-          toughness("Fracture/toughness", scene.fracture.toughness, scene.names(horizon));
-      solid.constrained = [constrained](const Point<dim> &x)
-      {
-        Tensor<1, dim> u;
-        for (unsigned int d = 0; d < dim; ++d)
-          u[d] = value_at(constrained, x, d);
-        return u;
-      };
+      const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
+                                          scene.names(horizon));
+      solid.constrained = [](const Point<dim> &) { return Tensor<1, dim>(); };
+      if (!scene.time.is_dynamic())
+        solid.constrained =
+            [constrained = physics::Expression("Problem/constraint", *scene.problem.constraint,
+                                               scene.names(horizon))](const Point<dim> &x)
+        {
+          Tensor<1, dim> u;
+          for (unsigned int d = 0; d < dim; ++d)
+            u[d] = value_at(constrained, x, d);
+          return u;
+        };
       solid.surface_terms = scene.fracture.surface_terms;
       solid.toughness = [toughness](const Point<dim> &x) { return value_at(toughness, x, 0); };
       solid.takes_least_toughness = scene.fracture.of_bonds == problem::BondToughness::minimum;
@@ -251,6 +255,21 @@ namespace plumbline::study
         throw InputError(scene::with_origin(error.what(), scene.domain.origin));
       }
     }
+
+    method::MovingBody make_moving_body(const scene::Scene &scene, const Method &method,
+                                        const physics::Kernel<2> &influence, double trapping)
+    {
+      try
+      {
+        return method.fracture_solver()->moving_body(
+            make_solid<2>(scene, influence.horizon(), trapping), influence,
+            scene.study.series.front().levels.front().h, scene.geometry.backend);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(scene::with_origin(error.what(), scene.domain.origin));
+      }
+    }
   } // namespace
 
   std::shared_ptr<const Method> fracture_method(const std::string &name, const Methods &available)
@@ -336,6 +355,10 @@ namespace plumbline::study
     void check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
     {
       const GrowthSize size = expected_size(scene, n_jobs);
+      if (scene.time.is_dynamic()) // bonds, of the network and as they are summed, with their ends
+        return base::require_memory(300 * size.n_bonds + 2000 * size.n_nodes,
+                                    "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
+                                    "choose a larger h (Study/h)", n_jobs);
       const bool is_factor = size.solver == problem::GrowthSolver::factor;
       const bool may_iterate = is_factor && scene.fracture.can_iterate();
       base::require_memory(
@@ -536,18 +559,47 @@ namespace plumbline::study
       return growth_record(std::move(record), found);
     }
 
+    /// The scene's body in motion.
+    Record analyse_motion(const Place &place, const Method &method, const Checkpoints &checkpoints,
+                          const WriteStrip &write)
+    {
+      const scene::Scene &scene = place.scene();
+      const problem::Level &level = place.level();
+      const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
+      Record record = place.record("grow", method);
+      double trapping = 1;
+      if (scene.fracture.criterion == problem::Criterion::calibrated)
+      {
+        trapping = find_trapping(scene, method, influence, level.h);
+        record.set("G_peak / G", trapping);
+      }
+      method::MovingBody body = make_moving_body(scene, method, influence, trapping);
+      body.parts.toughness = toughness_of_nodes(scene, body.parts.nodes, level.horizon);
+      record.texts["model"] = model_words(scene, !body.parts.has_dilatation);
+      record.texts["criterion"] = base::word(scene.fracture.criterion);
+      record.set("s0", critical_stretch(scene, body.parts, level.horizon, trapping));
+      describe_field(scene.random, record);
+      record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
+                                                                        scene.geometry.backend));
+      record.notes = find_notes(scene, body.parts, level.horizon);
+      return breaking_record(place, std::move(body), checkpoints, write, std::move(record));
+    }
+
     void conclude(const scene::Scene &scene, StudyResults &results)
     {
       for (const Record &record : results.records)
       {
         results.warnings.insert(results.warnings.end(), record.notes.begin(), record.notes.end());
-        for (Expectation &one : check_crack_growth(record, scene.expected))
+        for (Expectation &one : scene.time.is_dynamic()
+                                    ? check_breaking(record, scene.expected)
+                                    : check_crack_growth(record, scene.expected))
           results.expectations.push_back(std::move(one));
       }
     }
   } // namespace
 
-  Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write)
+  Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write,
+                           const WriteStrip &write_motion)
   {
     Analysis analysis{"grow", "Quasi-static fracture"};
     analysis.choose_methods = [](const scene::Scene &scene, const Methods &available, unsigned int,
@@ -562,6 +614,8 @@ namespace plumbline::study
     };
     analysis.analyse = [=](const Place &place, const Method &method) -> Records
     {
+      if (place.scene().time.is_dynamic())
+        return {analyse_motion(place, method, checkpoints, write_motion)};
       return {place.scene().domain.is_in_space()
                   ? analyse_in<3>(place, method, checkpoints, write)
                   : analyse_in<2>(place, method, checkpoints, write)};

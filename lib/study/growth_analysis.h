@@ -1,6 +1,7 @@
 #pragma once
 
 #include "study/analysis.h"
+#include "study/crack_analysis.h"
 #include "study/growth.h"
 
 #include <memory>
@@ -34,6 +35,9 @@ namespace plumbline::study
                                          const std::vector<dealii::Point<3>> &nodes,
                                          const std::vector<double> &damage)>;
   /// Quasi-static fracture of a scene (section Fracture) at its one level; of records see
-  /// growth_record. Besides, scalars and texts say what was solved, and how.
-  Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write);
+  /// growth_record. Besides, scalars and texts say what was solved, and how. With Time/final time
+  /// the body is in motion, see breaking_record.
+  /// @param write_motion  called at each frame of a motion; empty: there are none
+  Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write,
+                           const WriteStrip &write_motion = {});
 } // namespace plumbline::study

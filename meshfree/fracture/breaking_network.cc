@@ -231,27 +231,39 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  method::BreakableBody<dim> nodes_and_bonds(std::shared_ptr<const BondNetwork<dim>> network,
+                                             const dealii::Point<2> &notch_tip)
+  {
+    method::BreakableBody<dim> model;
+    model.h = network->h;
+    model.nodes = network->nodes;
+    for (const typename BondNetwork<dim>::Bond &bond : network->bonds)
+      model.bonds.push_back({bond.from, bond.to});
+    model.toughness_of_bonds = network->toughness;
+    model.cut = network->cut;
+    model.notch_tip = notch_tip;
+    model.has_dilatation = !network->dilatation.empty();
+    model.damage = [network = std::move(network)](const std::vector<std::size_t> &broken)
+    { return network->damage(broken); };
+    return model;
+  }
+
+  template <int dim>
   method::BreakableBody<dim> breakable_body(std::shared_ptr<BreakingNetwork<dim>> body,
                                             const dealii::Point<2> &notch_tip)
   {
-    method::BreakableBody<dim> model;
-    const BondNetwork<dim> &network = body->network();
-    model.h = network.h;
-    model.nodes = network.nodes;
-    for (const typename BondNetwork<dim>::Bond &bond : network.bonds)
-      model.bonds.push_back({bond.from, bond.to});
-    model.toughness_of_bonds = network.toughness;
-    model.cut = network.cut;
-    model.notch_tip = notch_tip;
-    model.has_dilatation = !network.dilatation.empty();
-    model.damage = [body](const std::vector<std::size_t> &broken)
-    { return body->network().damage(broken); };
+    method::BreakableBody<dim> model =
+        nodes_and_bonds<dim>({body, &body->network()}, notch_tip); // lives as long as the body
     model.body = std::move(body);
     return model;
   }
 
   template class BreakingNetwork<2>;
   template class BreakingNetwork<3>;
+  template method::BreakableBody<2> nodes_and_bonds(std::shared_ptr<const BondNetwork<2>>,
+                                                    const dealii::Point<2> &);
+  template method::BreakableBody<3> nodes_and_bonds(std::shared_ptr<const BondNetwork<3>>,
+                                                    const dealii::Point<2> &);
   template method::BreakableBody<2> breakable_body(std::shared_ptr<BreakingNetwork<2>>,
                                                    const dealii::Point<2> &);
   template method::BreakableBody<3> breakable_body(std::shared_ptr<BreakingNetwork<3>>,

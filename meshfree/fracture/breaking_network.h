@@ -76,6 +76,11 @@ namespace plumbline::meshfree
     Work work_;
   };
 
+  /// What is known of a network's nodes and bonds, without a body in equilibrium.
+  template <int dim>
+  method::BreakableBody<dim> nodes_and_bonds(std::shared_ptr<const BondNetwork<dim>> network,
+                                             const dealii::Point<2> &notch_tip);
+
   /// The same with what is known of its nodes and bonds.
   template <int dim>
   method::BreakableBody<dim> breakable_body(std::shared_ptr<BreakingNetwork<dim>> body,

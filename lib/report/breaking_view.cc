@@ -1,0 +1,166 @@
+#include "report/breaking_view.h"
+
+#include "report/counted.h"
+#include "report/damage_maps.h"
+#include "study/breaking.h"
+
+#include <algorithm>
+
+namespace plumbline::report
+{
+  namespace
+  {
+    using analysis::Curve;
+
+    const std::vector<double> &column(const Curve &curve, const std::string &name)
+    {
+      return std::find_if(curve.begin(), curve.end(),
+                          [&](const analysis::Column &one) { return one.name == name; })
+          ->values;
+    }
+
+    Table numbers(const Record &record)
+    {
+      return quantity_table(
+          record,
+          {{"advance", "distance from the notch tip to the crack's farthest point [length]"},
+           {"angle", "of this line against the direction of the notch [degree]"},
+           {"branched", "distance over which the crack has two parts or more [length]"},
+           {"speed", "of the tip, by a line fitted from 1/5 to 4/5 of the advance [length/time]"},
+           {"speed / c_R", "relative to the Rayleigh wave speed"},
+           {"fastest / c_R", "largest mean speed over an advance of four horizons or more"},
+           {"c_R", "Rayleigh wave speed [length/time]"},
+           {"c_T", "shear wave speed [length/time]"},
+           {"first break", "when the first bond broke [time]"},
+           {"broken bonds", "without those that the notch cuts"},
+           {"apart", "separated cell faces that are not connected to a notch"},
+           {"broken energy", "energy lost with broken bonds [force]"},
+           {"energy imbalance", "maximum change of kinetic + bonds + broken + dissipated - work, "
+                                "relative to the largest energy"},
+           {"overshoot", "mean of stretch / s0 - 1 when a bond was found broken; of first order in "
+                         "the time step"},
+           {"s0", "critical stretch [1]"},
+           {"G_h / G", "energy of all bonds across a line of the lattice at s0, relative to G"},
+           {"time step", record.text("scheme") + " [time]"},
+           {"critical step", "largest stable time step of the unbroken body [time]"},
+           {"nodes", "including those in the grips"},
+           {"bonds", "unbroken at t = 0"},
+           {"resumed at", "time of the checkpoint from which the run was resumed (0: none)"}});
+    }
+
+    std::string verdict(const Record &record)
+    {
+      const std::string &outcome = record.text("outcome");
+      std::string text =
+          record.count("broken bonds") == 0 ? "No bond breaks; the crack " : "The crack ";
+      text += outcome == base::word(scene::CrackOutcome::too_short)
+                  ? "was simulated for too short a time to classify"
+                  : outcome;
+      if (record["advance"] > 0)
+        text += "; its farthest point is " + rounded(record["advance"]) +
+                " [length] from the notch tip, at " + rounded(record["angle"]) +
+                " degrees to the notch";
+      if (record["speed"] > 0)
+        text += "; its speed is " + rounded(record["speed"]) + " [length/time], " +
+                rounded(record["speed / c_R"]) + " of the Rayleigh wave speed";
+      return text + "; the energy balance is off by " + rounded(record["energy imbalance"]) +
+             " of the largest energy. Reason: " + record.text("reason") +
+             ". This rests on one mesh size, h = " + rounded(record.key.h) + ".";
+    }
+
+    std::string model(const Record &record)
+    {
+      return "Model: " + record.text("model") +
+             ", with inertia. A bond is linear until its stretch reaches s0, and broken for good "
+             "from then on (Silling & Askari 2005). Bonds break between two time steps; the energy "
+             "that is lost with them is found from the energy before and after.";
+    }
+
+    std::vector<Vertex> line_of(const Curve &curve, const std::string &x, const std::string &y)
+    {
+      std::vector<Vertex> points;
+      for (std::size_t i = 0; i < curve[0].values.size(); ++i)
+        points.push_back({column(curve, x)[i], column(curve, y)[i]});
+      return points;
+    }
+
+    DataChart tip_chart(const Record &record)
+    {
+      const Curve &tip = record.curves.at("tip");
+      DataChart chart =
+          linear_chart("tip", "Crack advance", "t [time]", "distance from the notch tip [length]",
+                       "Of the crack that goes farthest, at every time step in which it grew. "
+                       "Dashed: a Rayleigh "
+                       "wave that starts at the notch tip when the crack begins to grow.");
+      chart.data = table_of(tip);
+      const double begin = column(tip, "t").front(),
+                   end = std::min(begin + record["advance"] / record["c_R"],
+                                  record.curves.at("samples")[0].values.back());
+      chart.plot.lines = {
+          long_line("crack tip", 0, line_of(tip, "t", "advance")),
+          dashed_line("Rayleigh wave", 1, {{begin, 0}, {end, record["c_R"] * (end - begin)}})};
+      fit_y(chart.plot);
+      return chart;
+    }
+
+    DataChart energy_chart(const Record &record)
+    {
+      const Curve &samples = record.curves.at("samples");
+      DataChart chart = linear_chart(
+          "energies", "Energy balance", "t [time]", "energy [force]",
+          "Work of grips and loads = kinetic + bonds + broken + dissipated, up to the error of the "
+          "time steps: the maximum imbalance is " +
+              rounded(record["energy imbalance"]) + " of the largest energy.");
+      chart.data = table_of(samples);
+      unsigned int style = 0;
+      for (const char *const name : {"work", "kinetic", "bonds", "broken", "dissipated"})
+        if (std::string(name) != "dissipated" || column(samples, name).back() > 0)
+          chart.plot.lines.push_back(
+              long_line(std::string(name) == "broken" ? "lost with broken bonds" : name, style++,
+                        line_of(samples, "t", name)));
+      fit_y(chart.plot);
+      return chart;
+    }
+
+    Picture moments(const Record &record)
+    {
+      std::vector<std::string> titles;
+      for (const double t : record.curves.at("moments")[0].values)
+        titles.push_back("t = " + rounded(t));
+      const char *const title = "Damage: broken bonds";
+      return {
+          "moments", title,
+          damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
+          "The fraction of each node's bonds that is broken or cut, on the undeformed body at six "
+          "times. Time/frames also writes the displacements, as VTU."};
+    }
+  } // namespace
+
+  bool is_of_breaking(const Record &record)
+  {
+    return record.has("energy imbalance");
+  }
+
+  View breaking_view(const Record &record)
+  {
+    View view{"Dynamic fracture"};
+    view.answer = verdict(record);
+    view.parts = {{"numbers", "Numbers", "", numbers(record)},
+                  {"cracks", "Cracks",
+                   "The crack of each notch, at the final time: its farthest point, the distance "
+                   "and angle to the notch, and the distance over which it is branched.",
+                   table_of(record.curves.at("cracks"))},
+                  model_part(model(record)),
+                  omitted_part(study::left_out_of_breaking())};
+    view.facts = {record.key.method + ", m = " + rounded(record.key.m()),
+                  "crack " + record.text("outcome")};
+    std::vector<DataChart> charts;
+    if (!record.curves.at("tip")[0].values.empty())
+      charts.push_back(tip_chart(record));
+    charts.push_back(energy_chart(record));
+    view.galleries = {{"picture", "Results", "", std::move(charts), {moments(record)}}};
+    view.tables = {{"samples", table_of(record.curves.at("samples"))},
+                   {"breaks", table_of(record.curves.at("breaks"))}};
+    return view;
+  }
+} // namespace plumbline::report

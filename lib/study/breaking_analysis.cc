@@ -1,0 +1,314 @@
+#include "study/breaking_analysis.h"
+
+#include "base/cost.h"
+#include "base/error.h"
+#include "base/number_text.h"
+#include "physics/expression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::study
+{
+  using dealii::Point;
+
+  namespace
+  {
+    constexpr unsigned int n_samples = 120, checkpoint_interval = 10;
+    constexpr double worst_imbalance = .01;
+
+    /// g at a time, see method::BreakingMotion.
+    std::vector<double> drive_at(const scene::Scene &scene, const method::MovingBody &body,
+                                 double horizon, double t)
+    {
+      const physics::Names names = scene.names(horizon, t);
+      std::optional<physics::Expression> load, constraint;
+      if (!scene.problem.loads.empty())
+        load.emplace("Problem/load", scene.problem.loads.front().expression, names);
+      if (scene.problem.constraint)
+        constraint.emplace("Problem/constraint", *scene.problem.constraint, names);
+      const std::vector<Point<2>> &nodes = body.parts.nodes;
+      std::vector<double> g(2 * nodes.size());
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (const auto &field = body.motion->is_free(i) ? load : constraint)
+          for (unsigned int c = 0; c < 2; ++c)
+            g[2 * i + c] = (*field)(nodes[i], c);
+      return g;
+    }
+
+    Vector first_velocity(const scene::Scene &scene, const method::MovingBody &body,
+                          const problem::Level &level)
+    {
+      Vector velocity(body.motion->size());
+      if (scene.time.initial_velocity.empty())
+        return velocity;
+      physics::Names names = scene.names(level.horizon);
+      names.constants["h"] = level.h;
+      const physics::Expression given("Time/initial velocity", scene.time.initial_velocity, names);
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < body.parts.nodes.size(); ++i)
+        if (body.motion->is_free(i))
+          for (unsigned int c = 0; c < 2; ++c)
+            velocity[next++] = given(body.parts.nodes[i], c);
+      return velocity;
+    }
+
+    DrivenBody make_driven(const scene::Scene &scene, const problem::Level &level,
+                           method::MovingBody body)
+    {
+      constexpr double tolerance = 1e-11;
+      const auto at = [&](double t) { return drive_at(scene, body, level.horizon, t); };
+      analysis::TimeSeries drive =
+          scene.is_steady() ? analysis::TimeSeries(at(0))
+                            : analysis::TimeSeries::resolve(
+                                  at, scene.time.final_time, tolerance,
+                                  "Problem/constraint, with Problem/load where it is given,");
+      Vector velocity = first_velocity(scene, body, level);
+      return {std::move(body), std::move(drive), scene.time.density, scene.time.damping,
+              std::move(velocity)};
+    }
+
+    CrackPlan make_plan(const scene::Scene &scene, const DrivenBody &driven,
+                        const Checkpoints &checkpoints, bool has_frames)
+    {
+      CrackPlan plan;
+      plan.final_time = scene.time.final_time;
+      plan.density = scene.time.density;
+      plan.scheme = scene.time.schemes.front();
+      plan.shows_blow_up = scene.time.shows_blow_up;
+      plan.n_samples = std::max(n_samples, scene.time.n_frames);
+      plan.interval = checkpoint_interval;
+      plan.subject = "plumbline grow\n" + scene.text;
+      plan.checkpoints = checkpoints;
+      if (has_frames)
+        plan.n_frames = scene.time.n_frames;
+      const analysis::Transient transient(*driven.body.motion, driven.drive, driven.density,
+                                          driven.damping);
+      const double longest = transient.critical_step(analysis::scheme(plan.scheme));
+      if (std::isfinite(longest) && longest > 0)
+        plan.critical_step = longest;
+      plan.step = !scene.time.steps.empty()
+                      ? scene.time.steps.back()
+                      : scene.time.fractions.back() *
+                            (plan.critical_step
+                                 ? longest
+                                 : transient.critical_step(analysis::scheme("velocity Verlet")));
+      return plan;
+    }
+
+    WriteBreaking frame_writer(const CrackPlan &plan, const DrivenBody &driven,
+                               const WriteStrip &write)
+    {
+      if (plan.n_frames == 0 || !write)
+        return {};
+      return [=, &driven](unsigned int index, double t, const State &state,
+                          const BreakingHistory &history)
+      {
+        std::vector<double> times;
+        for (unsigned int k = 0; k <= plan.n_samples && times.size() <= index; ++k)
+          if (plan.frame(k))
+            times.push_back(plan.time(k));
+        const method::BreakableBody<2> &parts = driven.body.parts;
+        const Vector u = driven.body.motion->displacements(state.u, driven.drive.at(t));
+        Vector by_component(u.size());
+        for (std::size_t i = 0; i < parts.nodes.size(); ++i)
+          for (std::size_t c = 0; c < 2; ++c)
+            by_component[c * parts.nodes.size() + i] = u[2 * i + c];
+        write(times, parts.nodes, by_component, parts.damage(history.broken(t)));
+      };
+    }
+
+    bool is_inside(const geometry::Domain &domain, const Point<2> &x)
+    {
+      const auto holds = [&](const geometry::Box &box)
+      {
+        return x[0] > box.lower[0] && x[0] < box.upper[0] && x[1] > box.lower[1] &&
+               x[1] < box.upper[1];
+      };
+      return std::any_of(domain.include.begin(), domain.include.end(), holds) &&
+             std::none_of(domain.exclude.begin(), domain.exclude.end(), holds);
+    }
+
+    /// A place outside of the body is within this distance.
+    bool is_at_boundary(const geometry::Domain &domain, const Point<2> &x, double distance)
+    {
+      constexpr int n = 16;
+      for (int k = 0; k < n; ++k)
+        if (!is_inside(domain, x + distance * Point<2>(std::cos(2 * M_PI * k / n),
+                                                       std::sin(2 * M_PI * k / n))))
+          return true;
+      return false;
+    }
+
+    double longest_side(const geometry::Domain &domain)
+    {
+      Point<2> lower = domain.include.front().lower, upper = domain.include.front().upper;
+      for (const geometry::Box &box : domain.include)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          lower[d] = std::min(lower[d], box.lower[d]);
+          upper[d] = std::max(upper[d], box.upper[d]);
+        }
+      return std::max(upper[0] - lower[0], upper[1] - lower[1]);
+    }
+
+    void add_samples(const BreakingHistory &history, Record &record)
+    {
+      analysis::Curve samples =
+          curve_of({"t", "kinetic", "bonds", "broken", "dissipated", "work", "excess"});
+      samples[0].unit = "time";
+      for (const BreakingSample &s : history.samples)
+        add_row(samples, {s.t, s.kinetic, s.bond, s.broken, s.dissipated, s.work,
+                          s.excess() - history.samples.front().excess()});
+      record.curves["samples"] = std::move(samples);
+      analysis::Curve breaks = curve_of({"t", "bonds", "energy"});
+      breaks[0].unit = "time";
+      double overshoot = 0, n = 0;
+      for (const TimedBreaks &one : history.breaks)
+      {
+        add_row(breaks, {one.t, static_cast<double>(one.bonds.size()), one.energy});
+        overshoot += one.overshoot;
+        n += static_cast<double>(one.bonds.size());
+      }
+      record.curves["breaks"] = std::move(breaks);
+      record.set("broken bonds", n);
+      record.set("broken energy", history.samples.back().broken, "force");
+      record.set("energy imbalance", energy_imbalance(history.samples));
+      if (n == 0)
+        return;
+      record.set("overshoot", overshoot / n);
+      record.set("first break", history.breaks.front().t, "time");
+    }
+
+    void add_moments(const BreakingHistory &history, const method::BreakableBody<2> &parts,
+                     const Point<2> &origin, Record &record)
+    {
+      const double end = history.samples.back().t;
+      analysis::PointField field{n_crack_moments, {}, {}};
+      for (const Point<2> &node : parts.nodes)
+        field.points.push_back(node + origin);
+      field.values.resize(n_crack_moments * parts.nodes.size());
+      analysis::Curve curve = {{"t", "time", {}}};
+      for (std::size_t k = 0; k < n_crack_moments; ++k)
+      {
+        const double t = end * static_cast<double>(k) / (n_crack_moments - 1);
+        curve[0].values.push_back(t);
+        const std::vector<double> damage = parts.damage(history.broken(t));
+        for (std::size_t i = 0; i < damage.size(); ++i)
+          field.values[n_crack_moments * i + k] = damage[i];
+      }
+      record.fields["damage"] = std::move(field);
+      record.curves["moments"] = std::move(curve);
+    }
+
+    void add_cracks(const std::vector<NotchCrack> &cracks, const NotchCrack &main,
+                    const Point<2> &origin, Record &record)
+    {
+      analysis::Curve all =
+          curve_of({"notch x", "notch y", "tip x", "tip y", "advance", "angle", "branched"});
+      for (const NotchCrack &one : cracks)
+        add_row(all, {one.from[0] + origin[0], one.from[1] + origin[1], one.to[0] + origin[0],
+                      one.to[1] + origin[1], one.way, one.angle, one.branched});
+      record.curves["cracks"] = std::move(all);
+      analysis::Curve tip = curve_of({"t", "advance"});
+      tip[0].unit = "time";
+      tip[1].unit = "length";
+      for (std::size_t i = 0; i < main.t.size(); ++i)
+        add_row(tip, {main.t[i], main.tip[i]});
+      record.curves["tip"] = std::move(tip);
+      record.set("advance", main.way, "length");
+      record.set("angle", main.angle, "degree");
+      record.set("branched", main.branched, "length");
+    }
+
+    /// Speeds of the crack that went farthest, and what becomes of it.
+    void add_outcome(const scene::Scene &scene, const NotchCrack &main, double horizon,
+                     Record &record)
+    {
+      constexpr double window = 4; // horizons
+      const physics::Lame lame = scene.material.lame()(main.from);
+      const double c_T = std::sqrt(lame.mu / scene.time.density),
+                   c_R = c_T * rayleigh_ratio(lame.mu / (lame.lambda + 2 * lame.mu)),
+                   speed = fitted_speed(main), fastest = fastest_speed(main, window * horizon);
+      record.set("c_T", c_T, "length/time");
+      record.set("c_R", c_R, "length/time");
+      record.set("speed", speed, "length/time");
+      record.set("speed / c_R", speed / c_R);
+      record.set("fastest / c_R", fastest / c_R);
+      const BreakingOutcome found = judge_breaking(
+          main, scene.time.final_time, horizon, longest_side(scene.domain.boxes) / c_T,
+          is_at_boundary(scene.domain.boxes, main.to, horizon));
+      record.texts["outcome"] = base::word(found.outcome);
+      record.texts["reason"] = found.reason;
+    }
+
+    /// The breaks as events whose loads are times.
+    std::vector<analysis::Event> events_of(const BreakingHistory &history)
+    {
+      std::vector<analysis::Event> events;
+      for (const TimedBreaks &one : history.breaks)
+      {
+        analysis::Event event;
+        event.critical = event.load = one.t;
+        event.bonds = one.bonds;
+        events.push_back(std::move(event));
+      }
+      return events;
+    }
+  } // namespace
+
+  Record breaking_record(const Place &place, method::MovingBody body,
+                         const Checkpoints &checkpoints, const WriteStrip &write, Record record)
+  {
+    const scene::Scene &scene = place.scene();
+    const problem::Level &level = place.level();
+    const Point<2> &origin = scene.domain.origin;
+    DrivenBody driven = make_driven(scene, level, std::move(body));
+    const CrackPlan plan = make_plan(scene, driven, checkpoints, static_cast<bool>(write));
+    const base::CpuTimer timer;
+    const BreakingHistory history = run_breaking(driven, plan, frame_writer(plan, driven, write));
+    record.cost.solve_seconds = timer.seconds();
+    const method::BreakableBody<2> &parts = driven.body.parts;
+    record.cost.n_unknowns = driven.body.motion->size();
+    record.cost.n_bonds = parts.bonds.size();
+    record.texts["scheme"] = plan.scheme;
+    record.set("time step",
+               plan.final_time /
+                   static_cast<double>(analysis::n_equal_steps(plan.final_time, plan.step)),
+               "time");
+    if (plan.critical_step)
+      record.set("critical step", *plan.critical_step, "time");
+    record.set("nodes", static_cast<double>(parts.nodes.size()));
+    record.set("bonds", static_cast<double>(parts.bonds.size()));
+    record.set("resumed at", history.resumed_at, "time");
+    add_samples(history, record);
+    add_moments(history, parts, origin, record);
+    const CrackPath path = find_path(parts, events_of(history));
+    std::vector<double> times;
+    for (const TimedBreaks &one : history.breaks)
+      times.push_back(one.t);
+    const std::vector<NotchCrack> cracks =
+        notch_cracks(parts, path, times, scene.domain.cracks, level.horizon);
+    const NotchCrack &main =
+        *std::max_element(cracks.begin(), cracks.end(),
+                          [](const NotchCrack &a, const NotchCrack &b) { return a.way < b.way; });
+    add_cracks(cracks, main, origin, record);
+    add_outcome(scene, main, level.horizon, record);
+    record.set("apart", static_cast<double>(path.n_elsewhere));
+    return record;
+  }
+
+  std::vector<Expectation> check_breaking(const Record &record,
+                                          const scene::ExpectedSection &expected)
+  {
+    std::vector<Expectation> found;
+    const double imbalance = record["energy imbalance"];
+    found.push_back({"energy balance", "below " + base::to_text(worst_imbalance, 2),
+                     base::to_text(imbalance, 3), imbalance < worst_imbalance});
+    const std::string &outcome = record.text("outcome"), wanted = base::word(expected.crack);
+    if (expected.crack != scene::CrackOutcome::unknown)
+      found.push_back({"Expected/crack", wanted, outcome, outcome == wanted});
+    return found;
+  }
+} // namespace plumbline::study

@@ -1,0 +1,274 @@
+// Bodies in motion whose bonds break for good.
+
+#include "study/breaking.h"
+
+#include "analysis/critical_step.h"
+#include "base/error.h"
+#include "growth_plate.h"
+#include "meshfree/fracture/network_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <unistd.h>
+
+using namespace plumbline;
+using namespace plumbline::study;
+using growth_plate::h;
+namespace fs = std::filesystem;
+
+namespace
+{
+  constexpr double nu_of_bonds = .25;
+
+  /// A plate of 20 × 12 nodes whose grips, in its upper and lower rows, move apart at a speed.
+  DrivenBody pulled_plate(double speed, double nu = nu_of_bonds)
+  {
+    DrivenBody driven{
+        meshfree::moving_body(growth_plate::network(growth_plate::plate(20, 12, 5 * h, nu)),
+                              {5 * h, 0}),
+        analysis::TimeSeries(Vector()),
+        1,
+        0,
+        {}};
+    const auto at = [&](double t)
+    {
+      Vector g(2 * driven.body.parts.nodes.size());
+      for (std::size_t i = 0; i < driven.body.parts.nodes.size(); ++i)
+        if (!driven.body.motion->is_free(i))
+          g[2 * i + 1] = (driven.body.parts.nodes[i][1] > 0 ? .5 : -.5) * speed * t;
+      return g;
+    };
+    driven.drive = analysis::TimeSeries::resolve(at, 1, 1e-12, "grips");
+    driven.velocity.assign(driven.body.motion->size(), 0);
+    return driven;
+  }
+
+  CrackPlan plan(double end, double step, unsigned int n_samples, const std::string &name)
+  {
+    CrackPlan result;
+    result.final_time = end;
+    result.step = step;
+    result.scheme = "velocity Verlet";
+    result.n_samples = n_samples;
+    result.interval = 1;
+    result.subject = "plate";
+    result.checkpoints.folder =
+        fs::path(testing::TempDir()) / ("plumbline_" + std::to_string(getpid()) + "_" + name);
+    fs::create_directories(result.checkpoints.folder);
+    fs::remove(result.checkpoints.file());
+    return result;
+  }
+
+  double number(const Vector &x, std::size_t seed)
+  {
+    return std::sin(static_cast<double>(7 * seed + 1) + static_cast<double>(x.size()));
+  }
+
+  Vector some_state(std::size_t n, std::size_t seed)
+  {
+    Vector u(n);
+    for (std::size_t i = 0; i < n; ++i)
+      u[i] = 1e-3 * number(u, i + seed);
+    return u;
+  }
+
+  constexpr double fast = 8, end = .5;
+
+  BreakingHistory history_of(unsigned int n_samples, double step, const std::string &name)
+  {
+    DrivenBody driven = pulled_plate(fast);
+    return run_breaking(driven, plan(end, step, n_samples, name));
+  }
+
+  /// Sides along a line from (0, 0), one h each, as broken by event i.
+  void add_line(CrackPath &path, double angle, int n, int from = 0)
+  {
+    for (int i = from; i < n; ++i)
+    {
+      const dealii::Point<2> x = h * (i + .5) * dealii::Point<2>(std::cos(angle), std::sin(angle));
+      const auto event = static_cast<std::size_t>(i);
+      path.sides.push_back({{x, x}, event, true, event});
+    }
+  }
+
+  NotchCrack crack_of(const CrackPath &path)
+  {
+    GrowthModel model;
+    model.h = h;
+    std::vector<double> times(100);
+    for (std::size_t i = 0; i < times.size(); ++i)
+      times[i] = .1 * static_cast<double>(i);
+    return notch_cracks(model, path, times, {{{-1, 0}, {0, 0}}}, 3 * h).front();
+  }
+} // namespace
+
+TEST(BreakingMotion, forces_are_the_gradient_of_the_energy)
+{
+  for (const double nu : {nu_of_bonds, .3})
+  {
+    DrivenBody driven = pulled_plate(1, nu);
+    method::BreakingMotion &motion = *driven.body.motion;
+    const Vector u = some_state(motion.size(), 0), v = some_state(motion.size(), 5),
+                 g = driven.drive.at(.01);
+    motion.restart({3, 40, 200, 777});
+    Vector a(u.size()), forward(u), backward(u);
+    motion.acceleration(u, g, a);
+    analysis::add(forward, 1, v);
+    analysis::add(backward, -1, v);
+    const double slope = .5 * (motion.energy(forward, g) - motion.energy(backward, g));
+    EXPECT_NEAR(motion.product(a, v), -slope, 1e-12 * std::abs(slope) + 1e-18) << "nu = " << nu;
+    // the power of the grips is the change of the energy as they move
+    Vector rate(g.size());
+    for (std::size_t i = 0; i < g.size(); ++i)
+      rate[i] = 100 * g[i];
+    Vector after(g), before(g);
+    analysis::add(after, .5, rate);
+    analysis::add(before, -.5, rate);
+    const double work = motion.energy(u, after) - motion.energy(u, before);
+    EXPECT_NEAR(motion.power(u, Vector(u.size()), g, rate), work, 1e-11 * std::abs(work));
+  }
+}
+
+TEST(BreakingMotion, a_bond_breaks_once_at_its_limit_and_takes_its_energy)
+{
+  DrivenBody driven = pulled_plate(1);
+  method::BreakingMotion &motion = *driven.body.motion;
+  const Vector u(motion.size());
+  const auto breaks_at = [&](double t) { return motion.break_bonds(u, driven.drive.at(t)); };
+  // rest: only bonds between a grip and its free neighbours are stretched, most the vertical ones
+  double low = 0, high = 1;
+  while (high - low > 1e-12) // the time at which the first bond breaks
+  {
+    DrivenBody other = pulled_plate(1);
+    const double t = .5 * (low + high);
+    (other.body.motion->break_bonds(u, other.drive.at(t)).bonds.empty() ? low : high) = t;
+  }
+  EXPECT_TRUE(breaks_at(low).bonds.empty());
+  const double before = motion.energy(u, driven.drive.at(high));
+  const auto breaks = breaks_at(high);
+  ASSERT_FALSE(breaks.bonds.empty());
+  EXPECT_NEAR(breaks.overshoot / static_cast<double>(breaks.bonds.size()), 0, 1e-9);
+  EXPECT_NEAR(breaks.energy, before - motion.energy(u, driven.drive.at(high)), 1e-12 * before);
+  EXPECT_GT(breaks.energy, 0);
+  EXPECT_TRUE(breaks_at(high).bonds.empty()); // they are broken already
+  // none carries a force any more, pulled less or pushed
+  DrivenBody cut = pulled_plate(1);
+  cut.body.motion->restart(breaks.bonds);
+  EXPECT_EQ(motion.energy(u, driven.drive.at(.3 * high)),
+            cut.body.motion->energy(u, cut.drive.at(.3 * high)));
+}
+
+TEST(BreakingMotion, energy_is_balanced_to_the_square_of_the_step)
+{
+  // work = kinetic + bonds + broken; measured 2.4e-3, 5.9e-4 and 1.5e-4
+  const double coarse = energy_imbalance(history_of(10, .004, "coarse").samples),
+               middle = energy_imbalance(history_of(10, .002, "middle").samples),
+               fine = energy_imbalance(history_of(10, .001, "fine").samples);
+  EXPECT_GT(std::log2(coarse / fine) / 2, 1.5) << coarse << ' ' << middle << ' ' << fine;
+  EXPECT_LT(fine, 1e-3);
+}
+
+TEST(BreakingMotion, a_crack_runs_symmetrically_and_its_history_does_not_depend_on_samples)
+{
+  const BreakingHistory few = history_of(5, .002, "few"), many = history_of(50, .002, "many");
+  ASSERT_GT(few.broken(end).size(), 100U);
+  EXPECT_EQ(few.broken(end), many.broken(end));
+  ASSERT_EQ(few.breaks.size(), many.breaks.size());
+  for (std::size_t i = 0; i < few.breaks.size(); ++i)
+    EXPECT_NEAR(few.breaks[i].t, many.breaks[i].t, 1e-12);
+  EXPECT_NEAR(few.samples.back().broken, many.samples.back().broken,
+              1e-9 * few.samples.back().broken);
+  const DrivenBody driven = pulled_plate(fast);
+  EXPECT_EQ(n_unpaired(driven.body.parts, few.broken(end), 1, 0), 0U);
+}
+
+TEST(BreakingMotion, goes_on_after_an_interrupt_to_the_same_bits)
+{
+  const BreakingHistory whole = history_of(12, .004, "whole");
+  CrackPlan stopped = plan(end, .004, 12, "stopped");
+  unsigned int n = 0;
+  stopped.checkpoints.should_stop = [&] { return ++n == 7; };
+  DrivenBody first = pulled_plate(fast), second = pulled_plate(fast);
+  EXPECT_THROW(run_breaking(first, stopped), Interrupted);
+  stopped.checkpoints.should_stop = {};
+  const BreakingHistory resumed = run_breaking(second, stopped);
+  EXPECT_NEAR(resumed.resumed_at, 7 * end / 12, 1e-12);
+  ASSERT_GT(whole.broken(resumed.resumed_at).size(), 0U);
+  EXPECT_EQ(whole.last.u, resumed.last.u);
+  EXPECT_EQ(whole.last.v, resumed.last.v);
+  EXPECT_EQ(whole.broken(end), resumed.broken(end));
+  for (std::size_t i = 0; i < whole.samples.size(); ++i)
+    EXPECT_EQ(whole.samples[i].excess(), resumed.samples[i].excess()) << i;
+}
+
+TEST(BreakingMotion, a_body_that_moves_freely_keeps_its_velocity)
+{
+  meshfree::BreakingSolid<2> solid = growth_plate::plate(10, 8, 3 * h, .3);
+  solid.grips.clear();
+  DrivenBody driven{meshfree::moving_body(growth_plate::network(solid), {3 * h, 0}),
+                    analysis::TimeSeries(Vector(160)), 2, 0, Vector(160, 3.)};
+  const BreakingHistory history = run_breaking(driven, plan(1, .01, 4, "free"));
+  EXPECT_TRUE(history.breaks.empty());
+  for (std::size_t i = 0; i < 160; ++i)
+    EXPECT_NEAR(history.last.u[i], 3, 1e-11);
+  EXPECT_NEAR(history.samples.back().kinetic, .5 * 2 * 9 * 160 * h * h, 1e-11);
+  EXPECT_NEAR(history.samples.back().bond, 0, 1e-18);
+}
+
+TEST(BreakingMotion, schemes_with_steps_of_their_own_are_refused)
+{
+  DrivenBody driven = pulled_plate(1);
+  CrackPlan one = plan(end, .01, 2, "adaptive");
+  one.scheme = "Runge-Kutta";
+  EXPECT_THROW(run_breaking(driven, one), InputError);
+}
+
+TEST(NotchCracks, angle_speed_and_branches_follow_from_the_sides)
+{
+  CrackPath straight;
+  add_line(straight, M_PI / 3, 40);
+  NotchCrack crack = crack_of(straight);
+  EXPECT_NEAR(crack.angle, 60, 1e-9);
+  EXPECT_NEAR(crack.way, 39.5 * h, 1e-12);
+  EXPECT_NEAR(fitted_speed(crack), h / .1, 1e-9);
+  EXPECT_NEAR(fastest_speed(crack, 4 * h), h / .1, 1e-9);
+  EXPECT_EQ(crack.branched, 0);
+
+  CrackPath fork; // two branches, farther apart than a horizon from some 9 h on
+  add_line(fork, M_PI / 9, 40);
+  add_line(fork, -M_PI / 9, 40);
+  crack = crack_of(fork);
+  EXPECT_NEAR(crack.branched, (40 - 1.5 / std::sin(M_PI / 9)) * h, 1.5 * h);
+  add_line(fork, M_PI / 9, 60, 40); // one goes on: what has branched remains so
+  EXPECT_EQ(crack_of(fork).branched, crack.branched);
+}
+
+TEST(NotchCracks, outcomes_name_what_they_rest_on)
+{
+  using Outcome = scene::CrackOutcome;
+  NotchCrack crack;
+  crack.way = 10;
+  crack.t = {1, 9.9};
+  crack.tip = {1, 10};
+  const auto outcome = [&](double time, bool is_at_boundary)
+  { return judge_breaking(crack, time, 1, 1, is_at_boundary).outcome; };
+  EXPECT_EQ(outcome(10, false), Outcome::too_short); // it may still branch
+  EXPECT_EQ(outcome(10, true), Outcome::runs);
+  EXPECT_EQ(outcome(30, false), Outcome::arrests);
+  crack.branched = 4;
+  EXPECT_EQ(outcome(10, false), Outcome::branches);
+  EXPECT_EQ(outcome(1000, true), Outcome::branches); // at any later time
+  crack = {};
+  EXPECT_EQ(outcome(5, false), Outcome::too_short); // less than six transits
+  EXPECT_EQ(outcome(7, false), Outcome::arrests);
+}
+
+TEST(RayleighWaves, have_their_known_speeds)
+{
+  // nu = 0, 1/4 and 1/2: k = 1/2, 1/3 and 0; the middle one is sqrt(2 - 2/sqrt 3)
+  EXPECT_NEAR(rayleigh_ratio(.5), .8740, 1e-4);
+  EXPECT_NEAR(rayleigh_ratio(), std::sqrt(2 - 2 / std::sqrt(3.)), 1e-12);
+  EXPECT_NEAR(rayleigh_ratio(0), .9553, 1e-4);
+}
