@@ -112,12 +112,17 @@ namespace plumbline::report
           "time steps: the maximum imbalance is " +
               rounded(record["energy imbalance"]) + " of the largest energy.");
       chart.data = table_of(samples);
+      const std::vector<std::pair<std::string, std::string>> lines = {
+          {"work", "work"},
+          {"kinetic", "kinetic"},
+          {"bonds", "bonds"},
+          {"broken", "lost with broken bonds"},
+          {"dissipated", "dissipated by damping"}};
       unsigned int style = 0;
-      for (const char *const name : {"work", "kinetic", "bonds", "broken", "dissipated"})
-        if (std::string(name) != "dissipated" || column(samples, name).back() > 0)
-          chart.plot.lines.push_back(
-              long_line(std::string(name) == "broken" ? "lost with broken bonds" : name, style++,
-                        line_of(samples, "t", name)));
+      for (const auto &[name, label] : lines)
+        if (const std::vector<double> &values = column(samples, name);
+            *std::max_element(values.begin(), values.end()) > 0)
+          chart.plot.lines.push_back(long_line(label, style++, line_of(samples, "t", name)));
       fit_y(chart.plot);
       return chart;
     }

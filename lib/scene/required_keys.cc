@@ -23,6 +23,7 @@ namespace plumbline::scene
     struct RequiredKey
     {
       std::string key, meaning;
+      bool is_of_rest = false; ///< with Time/final time it may be left out
     };
 
     struct Requirement
@@ -50,8 +51,8 @@ namespace plumbline::scene
              {"Kernel/limit", "= Navier"},
              {"Material/model", "= LPS"},
              {"Domain/cracks", "the notch"},
-             {"Domain/fixed", "the grips"},
-             {"Problem/constraint", "the displacement of the grips at load 1"}},
+             {"Domain/fixed", "the grips", true},
+             {"Problem/constraint", "the displacement of the grips at load 1", true}},
             "scenes/fracture/plate.prm ('plumbline list scenes') is a scene that has them"}}};
       return all;
     }
@@ -79,11 +80,10 @@ namespace plumbline::scene
     std::vector<std::string> missing;
     try
     {
-      const bool is_moving = analysis == "grow" && !is_nothing(value_of("Time/final time"));
+      const bool is_moving = !is_nothing(value_of("Time/final time"));
       for (const RequiredKey &one : found->second.keys)
-        if (is_moving && (one.key == "Domain/fixed" || one.key == "Problem/constraint"))
-          continue; // loads may move it, see check_fracture
-        else if (const std::string value = value_of(one.key); is_nothing(value))
+        if (const std::string value = value_of(one.key);
+            is_nothing(value) && !(one.is_of_rest && is_moving))
           missing.push_back(one.key +
                             (one.meaning[0] == '=' ? " " + one.meaning : " (" + one.meaning + ")"));
       if (found->second.has_density && lacks_material(value_of))

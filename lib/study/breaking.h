@@ -55,7 +55,8 @@ namespace plumbline::study
 
   /// Move the body. Bonds break between two steps, so that the motion between two breaks is that of
   /// the scheme, and the energy balance is off by its O(Δt²) for velocity Verlet; a bond breaks up
-  /// to a step late. The history does not depend on the times of samples beyond rounding.
+  /// to a step late. Steps are shortened to end at each sample, so that samples at other times
+  /// change the history by rounding alone where their distance is a multiple of the step.
   /// Checkpoints as run_crack.
   /// @throws as run_crack
   BreakingHistory run_breaking(DrivenBody &driven, const CrackPlan &plan,
@@ -77,8 +78,8 @@ namespace plumbline::study
 
   /// Cracks of each notch: a side that hangs together with a notch belongs to the nearest tip. A
   /// crack is branched at a distance from its notch's tip where its sides at this distance, to an
-  /// h, lie in two groups or more that are farther apart than a horizon. Since broken bonds stay
-  /// broken, what has branched remains so.
+  /// h, lie in two groups or more that are farther apart than a horizon. Broken bonds
+  /// stay broken: what has branched remains so, unless all that is between breaks, too.
   std::vector<NotchCrack> notch_cracks(const GrowthModel &model, const CrackPath &path,
                                        const std::vector<double> &times,
                                        const std::vector<geometry::Polyline> &notches,

@@ -76,8 +76,16 @@ namespace plumbline::study
       plan.final_time = scene.time.final_time;
       plan.density = scene.time.density;
       plan.scheme = scene.time.schemes.front();
+      if (analysis::scheme(plan.scheme).is_runge_kutta)
+        throw InputError("Time/schemes = " + plan.scheme +
+                         " chooses its own steps, between which bonds cannot break; write velocity "
+                         "Verlet, or another scheme with equal steps");
       plan.shows_blow_up = scene.time.shows_blow_up;
-      plan.n_samples = std::max(n_samples, scene.time.n_frames);
+      plan.n_samples = n_samples; // steps end there: not the scene's to choose
+      if (scene.time.n_frames > n_samples)
+        throw InputError("Time/frames = " + std::to_string(scene.time.n_frames) +
+                         " is more than the " + std::to_string(n_samples) +
+                         " times at which bodies in motion are recorded; write fewer frames");
       plan.interval = checkpoint_interval;
       plan.subject = "plumbline grow\n" + scene.text;
       plan.checkpoints = checkpoints;

@@ -445,3 +445,59 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(body + "--methods FA+energy",
                  "'FA+energy' does not support bonds that break; take one of FA, LAMMPS");
 }
+
+namespace
+{
+  std::string branching_plate()
+  {
+    return "grow " + std::string(PLUMBLINE_SCENES) +
+           "/fracture/branching_plate.prm --quiet --set Study/h=0.002 --set Study/m=3 --set "
+           "Expected/values= ";
+  }
+
+  std::string set(const std::string &setting)
+  {
+    return " --set '" + setting + "'";
+  }
+} // namespace
+
+TEST(GrowInMotion, tells_what_becomes_of_the_crack_and_draws_it)
+{
+  const fs::path folder = temporary("grow");
+  const Outcome outcome =
+      run(branching_plate() + set("Expected/crack=unknown") + " -o " + folder.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = record(folder);
+  EXPECT_LT(scalar(json, "energy imbalance"), .01);
+  EXPECT_GT(scalar(json, "fastest / c_R"), 0);
+  EXPECT_LT(scalar(json, "fastest / c_R"), 1);
+  // nu = 1/3 in plane stress: G = 3 E / 8
+  EXPECT_NEAR(scalar(json, "c_T"), std::sqrt(3 * 65e9 / 8 / 2235), 1e-6);
+  const std::string page = read(folder / "grow.html");
+  expect_found(page, "The crack " + json["texts"]["outcome"].get<std::string>());
+  expect_found(page, "crack faces may overlap");
+  for (const char *const name : {"moments.svg", "tip.svg", "energies.svg", "samples.csv"})
+    EXPECT_TRUE(fs::exists(folder / "grow" / name)) << name;
+  fs::remove_all(folder);
+}
+
+TEST(GrowInMotion, a_step_that_is_too_long_is_refused_with_the_critical_one)
+{
+  expect_refused(branching_plate() + set("Time/steps=1e-5"), "is longer than the critical step");
+}
+
+TEST(GrowInMotion, refuses_what_has_no_meaning_in_motion)
+{
+  const std::string plate = branching_plate();
+  expect_refused(plate + set("Time/schemes=Runge-Kutta"), "bonds cannot break");
+  expect_refused(plate + set("Problem/constraint=0, t"), "Problem/constraint empty");
+  expect_refused(plate + set("Domain/fixed=0, 0.0175 : 0.1, 0.02"),
+                 "needs Problem/constraint, the displacement of the grips in x, y and t");
+  expect_refused(plate + set("Problem/load="), "something that moves the body");
+  expect_refused(plate + set("Fracture/stretch=finite"), "no energy to be balanced");
+  expect_refused(plate + set("Fracture/min reaction=0.1"),
+                 "Fracture/min reaction = 0.1 has no effect");
+  expect_refused(plate + set("Time/initial displacement=x, 0"), "unstrained at first");
+  expect_refused("grow " + ::plate() + set("Expected/crack=runs"),
+                 "Expected/crack = runs has no effect");
+}
