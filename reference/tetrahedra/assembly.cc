@@ -2,6 +2,8 @@
 
 #include "geometry/search.h"
 #include "reference/tetrahedra/exact_pairs.h"
+#include "reference/tetrahedra/jump_assembly.h"
+#include "reference/tetrahedra/lattice_faces.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -291,8 +293,6 @@ namespace plumbline::reference
           work.integrals[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
       }
 
-      using Places = std::array<long, 18>; ///< of both faces' vertices from the first one's first
-
       double noted(const NumberedFace &f, const NumberedFace &g,
                    const ExactPairs::Integral &integral, Workspace &work) const
       {
@@ -306,28 +306,10 @@ namespace plumbline::reference
       bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
                          double &value) const
       {
-        const auto &x = f.face->vertices(), &y = g.face->vertices();
-        constexpr double off = 1e-12; // rounding of coordinates
-        bool is_of_lattice = true;
-        Places places{};
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          const auto place = [&](const Point<3> &vertex)
-          {
-            const double steps = (vertex[d] - x[0][d]) / spacing_;
-            const long nearest = std::lround(steps);
-            is_of_lattice = is_of_lattice && std::abs(steps - static_cast<double>(nearest)) < off;
-            return nearest;
-          };
-          for (unsigned int k = 0; k < 3; ++k)
-          {
-            places[3 * d + k] = place(x[k]);
-            places[9 + 3 * d + k] = place(y[k]);
-          }
-          if (!is_of_lattice)
-            return false;
-        }
-        const ExactPairs::Integral integral = known(places, work);
+        const auto places = places_on_lattice(*f.face, *g.face, spacing_);
+        if (!places)
+          return false;
+        const ExactPairs::Integral integral = known(*places, work);
         work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
                                                       largest_jump_[g.number]);
         value = integral.value;
@@ -335,27 +317,15 @@ namespace plumbline::reference
       }
 
       /// By the places alone, so that all threads have the same.
-      ExactPairs::Integral known(const Places &places, Workspace &work) const
+      ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
       {
         {
           const std::lock_guard<std::mutex> lock(mutex_);
           if (const auto found = known_.find(places); found != known_.end())
             return found->second;
         }
-        std::array<PairFace::Vertices, 2> x;
-        std::array<std::array<unsigned int, 3>, 2> names{};
-        for (unsigned int face = 0; face < 2; ++face)
-          for (unsigned int k = 0; k < 3; ++k)
-          {
-            names[face][k] = 3 * face + k;
-            for (unsigned int d = 0; d < 3; ++d)
-              x[face][k][d] = spacing_ * static_cast<double>(places[9 * face + 3 * d + k]);
-            for (unsigned int other = 0; other < 3 * face; ++other)
-              if (x[face][k] == x[0][other])
-                names[face][k] = other; // they share it
-          }
-        const ExactPairs::Integral integral =
-            (*exact_)(PairFace(x[0], names[0]), PairFace(x[1], names[1]));
+        const auto [f, g] = faces_at(places, spacing_);
+        const ExactPairs::Integral integral = (*exact_)(f, g);
         const std::lock_guard<std::mutex> lock(mutex_);
         if (known_.try_emplace(places, integral).second)
           ++work.use.n_pairs[integral.level];
@@ -403,7 +373,7 @@ namespace plumbline::reference
       double spacing_; ///< [horizons]
       std::optional<FacePairs> by_rule_;
       std::optional<ExactPairs> exact_;
-      mutable std::map<Places, ExactPairs::Integral> known_;
+      mutable std::map<FacePlaces, ExactPairs::Integral> known_;
       mutable std::mutex mutex_;         ///< of what is known
       std::vector<double> largest_jump_; ///< of each face
       std::vector<char> is_needed_;      ///< faces that rows asked for have
@@ -530,6 +500,8 @@ namespace plumbline::reference
                                        const physics::Kernel<3> &kernel, std::size_t n_rows,
                                        const FaceRule &rule, FaceRuleUse *use)
   {
+    if (!space.is_continuous() && space.degree() == 1)
+      return assemble_with_jumps(space, kernel, n_rows, rule, use);
     const FaceRows of_face(space, kernel, n_rows, rule);
     const double horizon = kernel.horizon();
     const std::vector<std::size_t> &blocks = of_face.blocks();

@@ -23,6 +23,9 @@ namespace plumbline::reference
     /// thousands of pairs, whose round-off is random, add up to an entry.
     double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
+    /// What the quadrature that jumps of linear functions always need may err by in a pair, as
+    /// `tolerance`.
+    double of_jumps = 1e-6;
     /// Pairs of faces with all vertices on a lattice of this spacing [length] that are translations
     /// of each other are integrated once; 0: they are not.
     double spacing = 0;
@@ -42,7 +45,7 @@ namespace plumbline::reference
   /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Entries are
   /// exact to round-off, or up to the quadrature over pairs of faces; all else is exact, so that
   /// rows annihilate constants, and those of continuous functions linear fields, to round-off.
-  /// Symmetric to the last bit.
+  /// Symmetric to the last bit. Linear functions that are not continuous: assemble_with_jumps().
   /// @pre  rows of unknowns whose supports are a horizon or more from the outside of the mesh; a
   /// kernel that FacePotential takes
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,

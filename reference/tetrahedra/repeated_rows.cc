@@ -12,22 +12,22 @@ namespace plumbline::reference
   {
     using Position = std::array<int, 3>;
 
-    /// Where unknowns are in a mesh of six tetrahedra per cube: one for each vertex, or six for
-    /// each cube.
+    /// Where unknowns are in a mesh of six tetrahedra per cube: one for each vertex, or one or four
+    /// for each cell of a cube.
     class Places
     {
     public:
-      Places(const geometry::CubeLattice &lattice, int n_layers, bool is_continuous)
-          : n_types_(is_continuous ? 1 : 6)
+      Places(const geometry::CubeLattice &lattice, int n_layers, TetrahedralShapes shapes)
+          : n_types_(shapes.is_continuous ? 1 : 6 * shapes.n_per_cell())
       {
         for (unsigned int d = 0; d < 3; ++d)
-          n_[d] = lattice.n_cells()[d] + 2 * n_layers + (is_continuous ? 1 : 0);
+          n_[d] = lattice.n_cells()[d] + 2 * n_layers + (shapes.is_continuous ? 1 : 0);
       }
 
       const Position &n() const { return n_; }
       std::size_t n_types() const { return n_types_; }
 
-      /// The number of a vertex or a cell.
+      /// The number that TetrahedralSpace::dof_at() takes.
       std::size_t number(const Position &at, std::size_t type) const
       {
         return geometry::number_within(at, n_) * n_types_ + type;
@@ -39,18 +39,18 @@ namespace plumbline::reference
     };
   } // namespace
 
-  RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
+  RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, TetrahedralShapes shapes,
                              const FaceRule &rule, FaceRuleUse *use)
-      : is_continuous_(is_continuous), n_layers_(geometry::layers_within(kernel.horizon(), h))
+      : shapes_(shapes), n_layers_(geometry::layers_within(kernel.horizon(), h))
   {
-    const double side = is_continuous ? 2 * h : h; // with one free vertex, or six free cells
+    const double side = shapes.is_continuous ? 2 * h : h; // with one free vertex, or six free cells
     const geometry::CubeLattice lattice(
         {{{dealii::Point<3>(), dealii::Point<3>(side, side, side)}}, {}}, h);
     const TetrahedralSpace space(
         std::make_shared<const TetrahedralMesh>(geometry::six_per_cube(lattice, n_layers_)),
-        is_continuous);
-    const Places places(lattice, n_layers_, is_continuous);
-    const int own = n_layers_ + (is_continuous ? 1 : 0);
+        shapes);
+    const Places places(lattice, n_layers_, shapes);
+    const int own = n_layers_ + (shapes.is_continuous ? 1 : 0);
     FaceRule of_lattice = rule;
     of_lattice.spacing = h;
     const algebra::CsrMatrix matrix =
@@ -92,7 +92,7 @@ namespace plumbline::reference
   algebra::CsrMatrix RepeatedRows::on(const TetrahedralSpace &space,
                                       const geometry::CubeLattice &lattice) const
   {
-    const Places places(lattice, n_layers_, is_continuous_);
+    const Places places(lattice, n_layers_, shapes_);
     algebra::CsrMatrix matrix;
     matrix.start.push_back(0);
     std::vector<std::pair<unsigned int, double>> sorted;

@@ -11,7 +11,7 @@ namespace plumbline::reference
   {
   public:
     /// Symmetric to the last bit.
-    RepeatedRows(const physics::Kernel<3> &kernel, double h, bool is_continuous,
+    RepeatedRows(const physics::Kernel<3> &kernel, double h, TetrahedralShapes shapes,
                  const FaceRule &rule, FaceRuleUse *use = nullptr);
 
     /// Those of the free unknowns.
@@ -34,7 +34,7 @@ namespace plumbline::reference
 
     void make_symmetric();
 
-    bool is_continuous_;
+    TetrahedralShapes shapes_;
     int n_layers_;
     std::vector<std::vector<Entry>> rows_; ///< by type
   };

@@ -21,26 +21,30 @@ namespace plumbline::reference
   } // namespace
 
   TetrahedralSpace::TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh,
-                                     bool is_continuous)
-      : mesh_(std::move(mesh)), is_continuous_(is_continuous)
+                                     TetrahedralShapes shapes)
+      : mesh_(std::move(mesh)), shapes_(shapes),
+        n_each_(shapes.is_continuous ? 1 : shapes.n_per_cell())
   {
     std::vector<char> is_free = mesh_->is_inside;
-    if (is_continuous_)
+    if (shapes_.is_continuous)
       is_free = geometry::inner_vertices(*mesh_);
     number_.resize(is_free.size());
-    support_.resize(is_free.size());
+    support_.resize(n_each_ * is_free.size());
     n_free_ = static_cast<std::size_t>(std::count(is_free.begin(), is_free.end(), 1));
     unsigned int free = 0, other = static_cast<unsigned int>(n_free_);
     for (std::size_t k = 0; k < is_free.size(); ++k)
     {
       number_[k] = is_free[k] != 0 ? free++ : other++;
-      dealii::Point<3> &place = support_[number_[k]];
-      if (is_continuous_)
-        place = mesh_->vertices[k];
-      else
+      if (shapes_.is_continuous)
+        support_[number_[k]] = mesh_->vertices[k];
+      else if (n_each_ == 1)
         for (const unsigned int vertex : mesh_->cells[k])
-          place += mesh_->vertices[vertex] / 4;
+          support_[number_[k]] += mesh_->vertices[vertex] / 4;
+      else
+        for (unsigned int corner = 0; corner < n_each_; ++corner)
+          support_[dof(k, corner)] = mesh_->vertices[mesh_->cells[k][corner]];
     }
+    n_free_ *= n_each_;
   }
 
   std::vector<SpaceFace> make_faces(const TetrahedralSpace &space)

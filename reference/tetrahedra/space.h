@@ -10,35 +10,62 @@ namespace plumbline::reference
 {
   using geometry::TetrahedralMesh;
 
-  /// Continuous linear functions or constants on the cells of a mesh. Free unknowns come first:
-  /// vertices with all their cells in Ω, or the cells in Ω.
+  /// Functions on the cells of a mesh.
+  struct TetrahedralShapes
+  {
+    /// Continuous linear ones, or constants.
+    TetrahedralShapes(bool continuous) // NOLINT: the two that need no degree
+        : is_continuous(continuous), degree(continuous ? 1 : 0)
+    {
+    }
+    static TetrahedralShapes discontinuous_linear()
+    {
+      TetrahedralShapes shapes(false);
+      shapes.degree = 1;
+      return shapes;
+    }
+
+    unsigned int n_per_cell() const { return degree == 0 ? 1 : 4; }
+
+    bool is_continuous;
+    unsigned int degree;
+  };
+
+  /// Linear functions, continuous or not, or constants on the cells of a mesh. Free unknowns come
+  /// first: vertices with all their cells in Ω, or those of the cells in Ω, of one cell together.
   class TetrahedralSpace
   {
   public:
-    TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh, bool is_continuous);
+    TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh, TetrahedralShapes shapes);
 
     const TetrahedralMesh &mesh() const { return *mesh_; }
-    bool is_continuous() const { return is_continuous_; }
+    bool is_continuous() const { return shapes_.is_continuous; }
+    unsigned int degree() const { return shapes_.degree; }
     std::size_t n_dofs() const { return support_.size(); }
     std::size_t n_free() const { return n_free_; }
 
-    /// The vertex, or the centroid of the cell. [length]
+    /// The vertex, or the centroid of a cell with constants. [length]
     const dealii::Point<3> &support(std::size_t dof) const { return support_[dof]; }
 
     /// The unknown of corner 0 ... 3 of a cell, in a space of constants the same for all corners.
     unsigned int dof(std::size_t cell, unsigned int corner) const
     {
-      return number_[is_continuous_ ? mesh_->cells[cell][corner] : cell];
+      return shapes_.is_continuous ? number_[mesh_->cells[cell][corner]]
+                                   : n_each_ * number_[cell] + corner % n_each_;
     }
 
-    /// The same of a vertex of the mesh, or of a cell.
-    unsigned int dof_at(std::size_t vertex_or_cell) const { return number_[vertex_or_cell]; }
+    /// The same of a vertex of the mesh, or of a cell, or of corner number % 4 of cell number / 4.
+    unsigned int dof_at(std::size_t number) const
+    {
+      return n_each_ * number_[number / n_each_] + static_cast<unsigned int>(number % n_each_);
+    }
 
   private:
     std::shared_ptr<const TetrahedralMesh> mesh_;
-    bool is_continuous_;
+    TetrahedralShapes shapes_;
+    unsigned int n_each_; ///< unknowns of a vertex or a cell
     std::size_t n_free_ = 0;
-    std::vector<unsigned int> number_; ///< of a vertex or a cell: its unknown
+    std::vector<unsigned int> number_; ///< of vertices or cells, free ones first
     std::vector<dealii::Point<3>> support_;
   };
 
@@ -59,6 +86,7 @@ namespace plumbline::reference
   };
 
   /// All faces of the mesh, each once.
+  /// @pre  continuous functions or constants
   std::vector<SpaceFace> make_faces(const TetrahedralSpace &space);
 
   /// ∇λ of the corners of a tetrahedron. [1 / length]

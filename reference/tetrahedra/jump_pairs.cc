@@ -1,0 +1,415 @@
+#include "reference/tetrahedra/jump_pairs.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::reference
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    /// The vertices of a face in an order that depends on names alone: those of the other first.
+    struct Order
+    {
+      Order(const PairFace &face, const PairFace &other)
+      {
+        const auto key = [&](unsigned int k)
+        {
+          const unsigned int name = face.names()[k];
+          const bool is_shared = std::count(other.names().begin(), other.names().end(), name) > 0;
+          return std::pair(!is_shared, name);
+        };
+        std::sort(of.begin(), of.end(),
+                  [&](unsigned int a, unsigned int b) { return key(a) < key(b); });
+        while (n_shared < 3 && !key(of[n_shared]).first)
+          ++n_shared;
+      }
+
+      std::array<unsigned int, 3> of = {0, 1, 2};
+      unsigned int n_shared = 0;
+    };
+
+    /// Coefficients of r^j in ∫_r^end t γ (t - r)^n / n! dt, γ by its terms.
+    std::vector<double> powers_of(const PotentialTerms &kernel, int n)
+    {
+      std::vector<double> powers;
+      const auto add = [&powers](int place, double value)
+      {
+        if (powers.size() <= static_cast<std::size_t>(place))
+          powers.resize(static_cast<std::size_t>(place) + 1);
+        powers[static_cast<std::size_t>(place)] += value;
+      };
+      for (const auto &[coefficient, k] : kernel.terms)
+      {
+        // ∫_0^end of the binomial, less (-1)^n ∫_0^r t γ (r - t)^n / n! dt
+        for (int j = 0; j <= n; ++j)
+        {
+          const int p = k + 2 + n - j;
+          add(j, coefficient * (j % 2 == 0 ? 1 : -1) * std::pow(kernel.end, p) /
+                     (std::tgamma(j + 1) * std::tgamma(n - j + 1) * p));
+        }
+        double inner = coefficient;
+        for (int j = 2; j <= n + 2; ++j)
+          inner /= k + j;
+        add(k + n + 2, n % 2 == 0 ? -inner : inner);
+      }
+      return powers;
+    }
+
+    /// Gauss rules on [0, 1] by their numbers of points.
+    struct GaussRule
+    {
+      std::vector<double> points, weights;
+    };
+
+    constexpr unsigned int most_gauss_points = 64;
+
+    const GaussRule &gauss(unsigned int n)
+    {
+      static const std::vector<GaussRule> rules = []
+      {
+        std::vector<GaussRule> result(most_gauss_points);
+        for (unsigned int k = 1; k <= most_gauss_points; ++k)
+        {
+          const dealii::QGauss<1> rule(k);
+          for (unsigned int q = 0; q < k; ++q)
+            result[k - 1].points.push_back(rule.point(q)[0]);
+          result[k - 1].weights = rule.get_weights();
+        }
+        return result;
+      }();
+      return rules[n - 1];
+    }
+
+    /// Points along a side for functions of τ and of r = √(square + τ²).
+    struct LinePoints
+    {
+      static constexpr unsigned int most = most_gauss_points;
+
+      LinePoints(double from, double to, double square)
+      {
+        // r is singular at τ = ± iη; far from there by τ, else by τ = η sinh s, of which it is
+        // analytic where |Im s| < π/2
+        constexpr double least_axis = 1.25, least_eta = 1e-14;
+        const double axis =
+            (std::sqrt(from * from + square) + std::sqrt(to * to + square)) / (to - from);
+        if (axis > least_axis)
+        {
+          const GaussRule &rule = choose(axis + std::sqrt(axis * axis - 1));
+          for (unsigned int q = 0; q < n; ++q)
+          {
+            tau[q] = from + (to - from) * rule.points[q];
+            weight[q] = (to - from) * rule.weights[q];
+          }
+        }
+        else
+        {
+          const double eta = std::max(std::sqrt(square), least_eta), first = std::asinh(from / eta),
+                       size = std::asinh(to / eta) - first, width = M_PI / size;
+          const GaussRule &rule = choose(width + std::sqrt(1 + width * width));
+          for (unsigned int q = 0; q < n; ++q)
+          {
+            tau[q] = eta * std::sinh(first + size * rule.points[q]);
+            weight[q] = size * rule.weights[q] * std::sqrt(eta * eta + tau[q] * tau[q]);
+          }
+        }
+        for (unsigned int q = 0; q < n; ++q)
+          r[q] = std::sqrt(square + tau[q] * tau[q]);
+      }
+
+      unsigned int n = 0;
+      std::array<double, most> tau, weight, r; // filled up to n
+
+    private:
+      /// For 1e-8 of functions that are analytic in the ellipse about [-1, 1] whose semi-axes have
+      /// this sum: Trefethen 2013, Approximation Theory and Approximation Practice, th. 19.3.
+      const GaussRule &choose(double ellipse)
+      {
+        constexpr double half_of_digits = 9.2;
+        n = std::min(2 + static_cast<unsigned int>(half_of_digits / std::log(ellipse)), most);
+        return gauss(n);
+      }
+    };
+  } // namespace
+
+  /// A triangle that points see.
+  class JumpPairs::Triangle
+  {
+  public:
+    explicit Triangle(const PairFace &face) : x(face.vertices())
+    {
+      const Tensor<1, 3> area = cross_product_3d(x[1] - x[0], x[2] - x[0]);
+      normal = area / area.norm();
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const Tensor<1, 3> edge = x[(k + 1) % 3] - x[k];
+        length[k] = edge.norm();
+        along[k] = edge / length[k];
+        outward[k] = cross_product_3d(along[k], normal);
+      }
+      for (unsigned int k = 0; k < 3; ++k)
+        slope[k] = -outward[(k + 1) % 3] * (length[(k + 1) % 3] / area.norm());
+    }
+
+    PairFace::Vertices x;
+    Tensor<1, 3> normal;
+    std::array<double, 3> length{};
+    std::array<Tensor<1, 3>, 3> along, outward; ///< of sides k -> k + 1
+    std::array<Tensor<1, 3>, 3> slope;          ///< ∇λ
+  };
+
+  JumpPairs::JumpPairs(const physics::Kernel<3> &kernel, double tolerance) : tolerance_(tolerance)
+  {
+    for (const PotentialTerms &terms : FacePotential::terms(kernel))
+    {
+      Part part{terms.end, powers_of(terms, 2), powers_of(terms, 3)};
+      for (double &power : part.harmonic)
+        power = -power;
+      parts_.push_back(std::move(part));
+    }
+    for (const unsigned int n : {3, 5, 7})
+      rules_[0].push_back(make_rule(n));
+    for (unsigned int k = 0; k < 2; ++k)
+      rules_[0].push_back(on_quarters(rules_[0].back()));
+    for (unsigned int n_shared = 1; n_shared <= 3; ++n_shared)
+      for (const unsigned int n : {4, 6, 9, 13, 19, 28})
+        rules_[n_shared].push_back(make_touching_rule(n_shared, n));
+  }
+
+  JumpIntegrals JumpPairs::operator()(const PairFace &f, const PairFace &g) const
+  {
+    JumpIntegrals result;
+    if (are_out_of_reach(f, g))
+      return result;
+    const Sights from_f = look(f, g), from_g = look(g, f);
+    for (unsigned int a = 0; a < 3; ++a)
+      for (unsigned int b = 0; b < 3; ++b)
+      {
+        constexpr double half = .5;
+        result.values[a][b] = half * (from_f.values[a][b] + from_g.values[b][a]);
+      }
+    if (f.names() != g.names()) // else in its own plane
+    {
+      result.first = from_f.slopes;
+      result.second = from_g.slopes;
+    }
+    return result;
+  }
+
+  JumpPairs::Sights JumpPairs::look(const PairFace &from, const PairFace &to) const
+  {
+    const Order order(from, to);
+    const Triangle face(to);
+    const std::vector<Rule> &rules = rules_[order.n_shared];
+    Sights sights = look(from, face, order.of, rules.front());
+    for (std::size_t level = 1; level < rules.size(); ++level)
+    {
+      const Sights finer = look(from, face, order.of, rules[level]);
+      double change = 0;
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        change = std::max(change, std::abs(finer.slopes[a] - sights.slopes[a]) / from.radius());
+        for (unsigned int b = 0; b < 3; ++b)
+          change = std::max(change, std::abs(finer.values[a][b] - sights.values[a][b]));
+      }
+      sights = finer;
+      if (change <= tolerance_)
+        break;
+    }
+    return sights;
+  }
+
+  JumpPairs::Sights JumpPairs::look(const PairFace &from, const Triangle &to,
+                                    const std::array<unsigned int, 3> &order,
+                                    const Rule &rule) const
+  {
+    Sights sights;
+    for (std::size_t q = 0; q < rule.points.size(); ++q)
+    {
+      std::array<double, 3> s{};
+      Point<3> x;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        s[order[k]] = rule.points[q][k];
+        x += rule.points[q][k] * from.vertices()[order[k]];
+      }
+      const Seen seen = see(to, x);
+      const double weight = rule.weights[q] * from.area();
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        sights.slopes[a] += weight * s[a] * seen.slope;
+        for (unsigned int b = 0; b < 3; ++b)
+          sights.values[a][b] += weight * s[a] * seen.values[b];
+      }
+    }
+    return sights;
+  }
+
+  JumpPairs::Seen JumpPairs::see(const Triangle &face, const Point<3> &from) const
+  {
+    constexpr double flat = 1e-13; // a height that is none
+    Seen seen;
+    const Tensor<1, 3> first = face.x[0] - from;
+    const double height = -(face.normal * first), distance = std::abs(height);
+    std::array<double, 3> at_foot{}; // λ_b
+    for (unsigned int b = 0; b < 3; ++b)
+      at_foot[b] = (b == 0 ? 1. : 0.) - face.slope[b] * first;
+    for (const Part &part : parts_)
+    {
+      if (distance >= part.end)
+        continue;
+      Values foot;
+      const double nearest = std::max(distance, flat);
+      values(part, &nearest, &foot.harmonic, &foot.biharmonic, 1);
+      Values whole;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const Tensor<1, 3> start = face.x[k] - from;
+        Side side;
+        side.kappa = face.outward[k] * start;
+        side.from = face.along[k] * start;
+        side.to = side.from + face.length[k];
+        double moment = 0;
+        add_side(part, side, distance, foot, whole, moment);
+        for (unsigned int b = 0; b < 3; ++b)
+          seen.values[b] += (face.slope[b] * face.outward[k]) * moment;
+      }
+      for (unsigned int b = 0; b < 3; ++b)
+        seen.values[b] += at_foot[b] * whole.harmonic;
+      if (distance > flat)
+        seen.slope += height * whole.biharmonic;
+    }
+    return seen;
+  }
+
+  void JumpPairs::add_side(const Part &part, const Side &side, double distance, const Values &foot,
+                           Values &whole, double &moment) const
+  {
+    const double kappa = side.kappa, of_kappa = kappa * kappa,
+                 square = of_kappa + distance * distance,
+                 reach = std::sqrt(std::max(0., part.end * part.end - square));
+    const auto angle = [&](double from, double to)
+    { return std::atan2(kappa * (to - from), of_kappa + from * to); };
+    const double from = std::max(side.from, -reach), to = std::min(side.to, reach);
+    if (from < to)
+    {
+      const LinePoints points(from, to, square);
+      std::array<double, LinePoints::most> harmonic, biharmonic; // filled up to n
+      values(part, points.r.data(), harmonic.data(), biharmonic.data(), points.n);
+      double of_harmonic = 0, of_biharmonic = 0;
+      for (unsigned int q = 0; q < points.n; ++q)
+      {
+        const double share = points.weight[q] / (of_kappa + points.tau[q] * points.tau[q]);
+        moment += points.weight[q] * harmonic[q];
+        of_harmonic += share * (harmonic[q] - foot.harmonic);
+        of_biharmonic += share * (biharmonic[q] - foot.biharmonic);
+      }
+      if (kappa != 0)
+      {
+        whole.harmonic += kappa * of_harmonic;
+        whole.biharmonic += kappa * of_biharmonic;
+      }
+    }
+    if (kappa != 0 && (from > side.from || to < side.to)) // beyond the horizon, where H = 0
+    {
+      const double beyond = angle(side.from, side.to) - (from < to ? angle(from, to) : 0);
+      whole.harmonic -= foot.harmonic * beyond;
+      whole.biharmonic -= foot.biharmonic * beyond;
+    }
+  }
+
+  void JumpPairs::values(const Part &part, const double *r, double *harmonic, double *biharmonic,
+                         unsigned int n)
+  {
+    const auto polynomial = [r, n](const std::vector<double> &powers, double *sums)
+    {
+      for (unsigned int q = 0; q < n; ++q)
+        sums[q] = powers.back();
+      for (std::size_t k = powers.size() - 1; k-- > 0;)
+        for (unsigned int q = 0; q < n; ++q)
+          sums[q] = sums[q] * r[q] + powers[k];
+    };
+    polynomial(part.harmonic, harmonic);
+    polynomial(part.biharmonic, biharmonic);
+    for (unsigned int q = 0; q < n; ++q)
+      biharmonic[q] /= r[q];
+  }
+
+  JumpPairs::Rule JumpPairs::make_rule(unsigned int n_points)
+  {
+    const dealii::QWitherdenVincentSimplex<2> symmetric(n_points);
+    Rule rule;
+    constexpr double twice = 2; // the area of the triangle that deal.II has is 1/2
+    for (unsigned int q = 0; q < symmetric.size(); ++q)
+    {
+      const auto &s = symmetric.point(q);
+      rule.points.push_back({1 - s[0] - s[1], s[0], s[1]});
+      rule.weights.push_back(twice * symmetric.weight(q));
+    }
+    return rule;
+  }
+
+  JumpPairs::Rule JumpPairs::on_quarters(const Rule &whole)
+  {
+    // the four triangles that the middles of the sides make
+    Rule rule;
+    constexpr double half = .5, quarter = .25;
+    for (unsigned int part = 0; part < 4; ++part)
+      for (std::size_t q = 0; q < whole.points.size(); ++q)
+      {
+        std::array<double, 3> s{};
+        for (unsigned int k = 0; k < 3; ++k)
+          s[k] = half *
+                 (part == 3 ? 1 - whole.points[q][k] : whole.points[q][k] + (k == part ? 1 : 0));
+        rule.points.push_back(s);
+        rule.weights.push_back(quarter * whole.weights[q]);
+      }
+    return rule;
+  }
+
+  JumpPairs::Rule JumpPairs::make_touching_rule(unsigned int n_shared, unsigned int n_points)
+  {
+    // triangles by their corners: of a vertex that is shared, along a side that is, if one is
+    constexpr double third = 1. / 3, half = .5;
+    using Corner = std::array<double, 3>;
+    const Corner first = {1, 0, 0}, second = {0, 1, 0}, last = {0, 0, 1};
+    std::vector<std::array<Corner, 3>> triangles;
+    if (n_shared == 1)
+      triangles = {{first, second, last}};
+    else if (n_shared == 2)
+      triangles = {{first, {half, half, 0}, last}, {second, {half, half, 0}, last}};
+    else
+      for (const auto &[a, b] : {std::pair(first, second),
+                                 {second, first},
+                                 {second, last},
+                                 {last, second},
+                                 {last, first},
+                                 {first, last}})
+        triangles.push_back({a,
+                             {half * (a[0] + b[0]), half * (a[1] + b[1]), half * (a[2] + b[2])},
+                             {third, third, third}});
+    // a along rays from the vertex, where functions are like a and a log a, and b from the side
+    // on, where they are like b log b
+    const GaussRule &line = gauss(n_points);
+    Rule rule;
+    for (const auto &[apex, near, far] : triangles)
+      for (unsigned int i = 0; i < n_points; ++i)
+        for (unsigned int j = 0; j < n_points; ++j)
+        {
+          const double alpha = line.points[i], beta = line.points[j];
+          const double a = alpha * alpha, b = n_shared == 1 ? beta : beta * beta * beta;
+          Corner s{};
+          for (unsigned int k = 0; k < 3; ++k)
+            s[k] = (1 - a) * apex[k] + a * ((1 - b) * near[k] + b * far[k]);
+          rule.points.push_back(s);
+          const double stretch = 2 * alpha * (n_shared == 1 ? 1 : 3 * beta * beta);
+          rule.weights.push_back(line.weights[i] * line.weights[j] * 2 * a * stretch /
+                                 static_cast<double>(triangles.size()));
+        }
+    return rule;
+  }
+} // namespace plumbline::reference
