@@ -273,11 +273,11 @@ namespace plumbline::python
     if (method->can().count(method::Capability::space) == 0)
       throw InputError("method '" + name +
                        "' is for two dimensions only; choose a meshfree rule, Q1, Q2, DGQ0, "
-                       "DGQ1 or DGQ2, or P1 or DGP0 on tetrahedra");
+                       "DGQ1 or DGQ2, or P1, DGP0 or DGP1 on tetrahedra");
     if (is_on_mesh && method->can_in_space().count(method::Capability::triangles) == 0)
       throw InputError("method '" + name +
                        "' is for lattices of cubes, and this problem is on a mesh of tetrahedra; "
-                       "choose P1, DGP0 or a meshfree rule");
+                       "choose P1, DGP0, DGP1 or a meshfree rule");
     return method;
   }
 

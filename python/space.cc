@@ -285,7 +285,7 @@ namespace plumbline::python
 
 Problem(kernel, *, box, h, nodes=None, exclude=None, load=None, constraint=None, solution=None,
         lame=None)
-Problem(kernel, *, mesh="ball.msh", h, ...)   tetrahedra of gmsh, for P1, DGP0 and meshfree rules
+Problem(kernel, *, mesh="ball.msh", h, ...)   tetrahedra of gmsh, for P1, DGP0, DGP1 and meshfree rules
 
 kernel      of the bonds; with lame, the influence function (only its profile and horizon are used)
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from

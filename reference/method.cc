@@ -43,7 +43,7 @@ namespace plumbline::reference
                     ? " on quadrilaterals; entries exact to round-off on lattices and "
                       "axis-aligned rectangles"
                     : std::string(" on triangles") +
-                          (has_one_family()
+                          (is_on_tetrahedra()
                                ? ", in three dimensions on tetrahedra (six per cube, or of a mesh)"
                                : "")) +
                (by_quadrature_ ? ", all entries by quadrature: to chart exact ones against" : "") +
@@ -62,7 +62,7 @@ namespace plumbline::reference
           can.insert({Capability::lattice, Capability::quadrilaterals});
         if (n_vertices_ == 4 && is_continuous_)
           can.insert({Capability::double_well, Capability::periodic, Capability::line});
-        if (!by_quadrature_ && (n_vertices_ == 4 ? degree_ <= 2 : has_one_family()))
+        if (!by_quadrature_ && (n_vertices_ == 4 ? degree_ <= 2 : is_on_tetrahedra()))
           can.insert(Capability::space);
         return can;
       }
@@ -119,7 +119,7 @@ namespace plumbline::reference
       discretise_in_space(const problem::Problem<3> &problem) const override
       {
         if (n_vertices_ == 3)
-          return discretise_on_tetrahedra(problem, is_continuous_);
+          return discretise_on_tetrahedra(problem, tetrahedral_shapes());
         const AxisShapes shapes(is_continuous_, degree_);
         if (shapes.families().size() == 1)
           return discretise_on_box(problem, shapes);
@@ -158,7 +158,7 @@ namespace plumbline::reference
         if (!size.is_lattice())
           return expected_mesh_bytes(size, n_vertices_, is_continuous_, degree_);
         if (n_vertices_ == 3)
-          return expected_bytes_on_tetrahedra(size, is_continuous_);
+          return expected_bytes_on_tetrahedra(size, tetrahedral_shapes());
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
         const unsigned int n_families = n_axis * n_axis * (size.depth > 0 ? n_axis : 1);
         return method::expected_lattice_bytes(size, n_families, size.n_components,
@@ -172,6 +172,13 @@ namespace plumbline::reference
     private:
       /// Of shape functions per cell.
       bool has_one_family() const { return degree_ == (is_continuous_ ? 1 : 0); }
+
+      bool is_on_tetrahedra() const { return n_vertices_ == 3 && degree_ <= 1 && !by_quadrature_; }
+      TetrahedralShapes tetrahedral_shapes() const
+      {
+        return is_continuous_ || degree_ == 0 ? TetrahedralShapes(is_continuous_)
+                                              : TetrahedralShapes::discontinuous_linear();
+      }
 
       unsigned int n_vertices_;
       bool is_continuous_;

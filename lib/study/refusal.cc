@@ -90,7 +90,7 @@ namespace plumbline::study
           scene.methods.nodes.kind() == scene::NodeKind::centres)
         return "its nodes are lattice centres, which Domain/mesh = " + mesh.name +
                " does not have in three dimensions; write Methods/nodes = mesh (the centroids of "
-               "the tetrahedra), or take P1 or DGP0";
+               "the tetrahedra), or take P1, DGP0 or DGP1";
     }
     if (method.can().count(method::Capability::space) == 0)
       return "it is implemented in two dimensions only, and Domain/dimension = 3; take " +

@@ -35,14 +35,14 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, boxes=None, exclude=No
 
 
 def solve(problem, method):
-    """Solve a space.Problem by a meshfree rule, "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2", "P1" or "DGP0": a space.Solution."""
+    """Solve a space.Problem by a meshfree rule, "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2", "P1", "DGP0" or "DGP1": a space.Solution."""
     return _core.solve_in_space(problem, method)
 
 
 def matrix(problem, method, h=None):
     """The discrete operator of a method on a space.Problem, with its load and nodes.
 
-    method  a meshfree rule, "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2", "P1" or "DGP0"
+    method  a meshfree rule, "Q1", "Q2", "DGQ0", "DGQ1", "DGQ2", "P1", "DGP0" or "DGP1"
     h       side of cubes other than the problem's own [length]; not with a mesh or scattered nodes
 
     Returns a plumbline.Matrix, whose help gives shapes, units, the sign, and the order of unknowns.

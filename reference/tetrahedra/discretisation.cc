@@ -25,11 +25,11 @@ namespace plumbline::reference
                                  public method::HasLinearEquations<3>
     {
     public:
-      GalerkinOnTetrahedra(const problem::Problem<3> &problem, bool is_continuous)
+      GalerkinOnTetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
           : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra && !problem.mesh)
       {
         const auto mesh = std::make_shared<const TetrahedralMesh>(make_mesh(problem));
-        space_ = std::make_shared<const TetrahedralSpace>(mesh, is_continuous);
+        space_ = std::make_shared<const TetrahedralSpace>(mesh, shapes);
         if (space_->n_free() == 0)
           throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
         method::PartitionedRows rows = method::part(make_rows(problem), n_unknowns());
@@ -39,7 +39,7 @@ namespace plumbline::reference
         options_.iteration = problem.settings.solver.iteration;
         diagnostics_.n_neighbours = static_cast<unsigned int>(
             (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
-        if (is_continuous && is_of_cubes_)
+        if (shapes.degree > 0 && is_of_cubes_)
           diagnostics_.limit = method::prove_galerkin(problem);
       }
 
@@ -132,7 +132,7 @@ namespace plumbline::reference
           result.volumes = volumes(*space_);
         result.averages = field->averages(lattice_);
         result.value = [field](const Point<3> &x, unsigned int) { return field->value(x); };
-        if (space_->is_continuous())
+        if (space_->degree() > 0)
           result.gradient = [field](const Point<3> &x, unsigned int) { return field->gradient(x); };
         return result;
       }
@@ -141,28 +141,38 @@ namespace plumbline::reference
       /// independent check.
       algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
       {
-        const bool is_continuous = space_->is_continuous();
+        const TetrahedralShapes &shapes = space_->shapes();
+        const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
         FaceRule exact = FaceRule::exact();
         exact.spacing = problem.h(); // parts of meshes may be lattices, too
-        const FaceRule check = FaceRule::quadrature(1);
+        FaceRule check = FaceRule::quadrature(1);
+        if (has_jumps)
+        {
+          check = exact;
+          check.of_jumps = exact.of_jumps / 10;
+        }
         FaceRuleUse use;
         algebra::CsrMatrix matrix;
         double change = 0; // of entries, relative to the diagonal
         if (is_of_cubes_)
         {
-          const RepeatedRows rows(problem.kernel, problem.h(), is_continuous, exact, &use);
+          const RepeatedRows rows(problem.kernel, problem.h(), shapes, exact, &use);
           matrix = rows.on(*space_, lattice_);
-          change = RepeatedRows(problem.kernel, problem.h(), is_continuous, check).difference(rows);
+          change = RepeatedRows(problem.kernel, problem.h(), shapes, check).difference(rows);
         }
         else
         {
           constexpr double of_meshes = 1e-12; // of a pair
           exact.tolerance = of_meshes;
+          check.tolerance = of_meshes;
+          exact.of_jumps *= 10;
+          check.of_jumps *= 10;
           matrix = assemble_by_faces(*space_, problem.kernel, n_unknowns(), exact, &use);
           change =
               difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check), matrix);
         }
-        constexpr double most_error = 1e-10, most_change = .25;
+        constexpr double most_error = 1e-10;
+        const double most_change = has_jumps ? 1e-2 : .25;
         if (!(use.error <= most_error) || !(change <= most_change))
           throw NumericalError("integrals over pairs of faces have round-off of up to " +
                                base::to_text(use.error, 1) +
@@ -171,16 +181,27 @@ namespace plumbline::reference
                                (problem.make_tetrahedra ? "choose a smaller Methods/perturbation"
                                                         : "give a mesh without thin tetrahedra "
                                                           "(Mesh.OptimizeThreshold of gmsh)"));
+        note(use, change, has_jumps);
+        return matrix;
+      }
+
+      /// How entries were made.
+      void note(const FaceRuleUse &use, double change, bool has_jumps)
+      {
         const auto &[n_double, n_long, n_quad, n_octuple] = use.n_pairs;
+        const std::string sample = is_of_cubes_ ? "them" : "a sample of them";
         diagnostics_.notes.push_back(
-            "entries exact to round-off by integrals along lines for " +
+            std::string(has_jumps ? "entries of continuous functions" : "entries") +
+            " exact to round-off by integrals along lines for " +
             std::to_string(n_double + n_long + n_quad + n_octuple) + " pairs of faces, " +
             std::to_string(n_long) + " of them in long double and " +
             std::to_string(n_quad + n_octuple) + " with 124 bits or more, each to " +
-            base::to_text(use.error, 1) +
-            " of the diagonal; quadrature over pairs of faces would change " +
-            (is_of_cubes_ ? "them" : "a sample of them") + " by " + base::to_text(change, 1));
-        return matrix;
+            base::to_text(use.error, 1) + " of the diagonal; " +
+            (has_jumps ? "jumps are integrated exactly over one face and by quadrature over the "
+                         "other, where a tolerance ten times smaller would change "
+                       : "quadrature over pairs of faces would change ") +
+            sample + " by " + base::to_text(change, 1) +
+            (has_jumps ? " of the largest entry (no change for linear fields)" : ""));
       }
 
       /// Rows for a check: the thinnest cells come first.
@@ -201,21 +222,22 @@ namespace plumbline::reference
   } // namespace
 
   std::unique_ptr<method::DiscretisationInSpace>
-  discretise_on_tetrahedra(const problem::Problem<3> &problem, bool is_continuous)
+  discretise_on_tetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
   {
     if (const std::string reason = FacePotential::refuse(problem.kernel); !reason.empty())
       throw InputError(reason);
-    return std::make_unique<GalerkinOnTetrahedra>(problem, is_continuous);
+    return std::make_unique<GalerkinOnTetrahedra>(problem, shapes);
   }
 
-  double expected_bytes_on_tetrahedra(const method::ProblemSize &size, bool is_continuous)
+  double expected_bytes_on_tetrahedra(const method::ProblemSize &size, TetrahedralShapes shapes)
   {
     // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
     // what all faces keep, and rows of faces that are assembled at a time; all measured
     const double of_entry = size.is_scattered ? 50 : 20, of_cell = size.is_scattered ? 1000 : 100,
                  of_faces = size.is_scattered ? 6e7 : 0, of_pair = 220; // of a lattice, known once
-    const double reach = size.reach() / size.level.h, n_types = is_continuous ? 1 : 6,
-                 wider = is_continuous ? 2 : 1.2,
+    const double reach = size.reach() / size.level.h,
+                 n_types = shapes.is_continuous ? 1 : 6 * shapes.n_per_cell(),
+                 wider = shapes.is_continuous ? 2 : 1.2,
                  n_cubes = size.extents[0] * size.extents[1] * size.depth,
                  n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
                          (size.depth + 2 * reach),

@@ -39,6 +39,7 @@ namespace plumbline::reference
     TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh, TetrahedralShapes shapes);
 
     const TetrahedralMesh &mesh() const { return *mesh_; }
+    const TetrahedralShapes &shapes() const { return shapes_; }
     bool is_continuous() const { return shapes_.is_continuous; }
     unsigned int degree() const { return shapes_.degree; }
     std::size_t n_dofs() const { return support_.size(); }

@@ -76,6 +76,32 @@ TEST(StaticsOnTetrahedra, may_be_the_reference_with_an_estimate_that_bounds_the_
   EXPECT_GT(error, results.references.front().estimate / 10);
 }
 
+TEST(StaticsOnTetrahedra, that_are_discontinuous_converge_like_continuous_ones)
+{
+  const auto solve = [](const std::string &solution, const std::string &h)
+  {
+    return run(make_scene({{"Methods/names", "P1, DGP1"},
+                           {"Domain/boxes", "0,0,0 : 1,1,1/2"},
+                           {"Problem/solution", solution},
+                           {"Study/m", "1.5"},
+                           {"Study/norms", "averages L2"},
+                           {"Study/decisive error", "averages L2 | exact"},
+                           {"Study/h", h}}))
+        .records;
+  };
+  for (const Record &record : solve("3*x + 2*y - z + 1", "1/4"))
+  {
+    ASSERT_EQ(record.failure, "");
+    EXPECT_LT(record["averages L2 | exact"], 1e-11) << record.key.method;
+  }
+  std::map<std::string, std::vector<double>> errors;
+  for (const Record &record : solve("x^3*y^2 + z^4 + x*y*z^2", "1/4, 1/8"))
+    errors[record.key.method].push_back(record["averages L2 | exact"]);
+  const std::vector<double> &error = errors.at("DGP1");
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2, .4);
+  EXPECT_LT(error[1], 1.5 * errors.at("P1")[1]);
+}
+
 TEST(StaticsOnTetrahedra, say_how_entries_are_made_and_what_theory_says)
 {
   const auto results =
@@ -100,7 +126,7 @@ TEST(MethodsOnTetrahedra, are_refused_where_they_have_no_entries)
                   "scalar kernels"));
   EXPECT_TRUE(
       has(message({{"Kernel/type", "gaussian"}, {"Kernel/width", ".5"}}), "sums of powers"));
-  for (const std::string name : {"P2", "DGP1", "P1-quadrature"})
+  for (const std::string name : {"P2", "DGP2", "P1-quadrature", "DGP1-quadrature"})
     EXPECT_TRUE(has(message_of({{"Methods/names", name}}), name)) << name;
   const std::string moving = message({{"Time/final time", "1"}, {"Study/norms", "nodal Linf"}});
   EXPECT_TRUE(has(moving, "P1")) << moving;

@@ -41,7 +41,7 @@ namespace plumbline::scene
         "perturbation", nodes.perturbation, between(0, .49),
         "Random displacement of centres by up to this multiple of h along each axis "
         "(Geometry/seed). Needs a mesh, or Domain/dimension = 3, where vertices of tetrahedra (P1, "
-        "DGP0) inside the domain move, too.");
+        "DGP0, DGP1) inside the domain move, too.");
     keys.add("load", loads_are_averages, "nodes", "cells",
              "Right-hand sides of meshfree methods: the load at the nodes, or its averages over "
              "the node cells.");
