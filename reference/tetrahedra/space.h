@@ -27,8 +27,8 @@ namespace plumbline::reference
 
     unsigned int n_per_cell() const { return degree == 0 ? 1 : 4; }
 
-    bool is_continuous;
-    unsigned int degree;
+    bool is_continuous = true;
+    unsigned int degree = 1;
   };
 
   /// Linear functions, continuous or not, or constants on the cells of a mesh. Free unknowns come
