@@ -494,6 +494,8 @@ namespace plumbline::check
       if (found.has_matrix && found.matrix_failure.empty() && found.matrix.is_positive_definite())
         result.push_back(found.nodes.box ? "positive definite with u prescribed around the box"
                                          : "positive definite");
+      if (!found.has_matrix)
+        result.emplace_back("matrix and solutions are not examined in three dimensions");
       return result;
     }
   } // namespace

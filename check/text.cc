@@ -19,8 +19,7 @@ namespace plumbline::check
   using namespace meshfree;
   using Json = nlohmann::ordered_json;
 
-  const char *const not_checked_in_space =
-      "not checked in three dimensions: matrix, solutions; no maps are drawn\n";
+  const char *const not_checked_in_space = "not checked in three dimensions: matrix, solutions\n";
 
   namespace
   {
@@ -133,10 +132,7 @@ namespace plumbline::check
           << base::to_percent(found.symmetry.imbalance) << "; " << found.symmetry.n_unpaired
           << " bonds without a partner\n";
       if (!found.has_matrix)
-      {
-        out << not_checked_in_space;
         return;
-      }
       out << "matrix    " << found.matrix.n_positive
           << " rows with positive off-diagonal entries (no M-matrix if any), "
           << found.matrix.n_weak << " not diagonally dominant\n"

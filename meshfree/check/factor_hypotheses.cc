@@ -28,14 +28,22 @@ namespace plumbline::meshfree
       return families;
     }
 
-    /// How far kernel points of most bonds are from the neighbours, in sizes of their cells.
+    /// How far kernel points of most bonds are from the rule's, or from the neighbours, in sizes of
+    /// their cells.
     template <int dim>
-    double misplacement(const std::vector<Family<dim>> &families)
+    double misplacement(const std::vector<Family<dim>> &families,
+                        const std::optional<Recognised<dim>> &rule)
     {
       std::vector<double> distances;
-      for (const Family<dim> &family : families)
-        for (const Bond<dim> &bond : family.bonds)
-          distances.push_back(bond.kernel_point.distance(bond.xi) / cell_size<dim>(bond.area));
+      for (std::size_t i = 0; i < families.size(); ++i)
+        for (std::size_t k = 0; k < families[i].bonds.size(); ++k)
+        {
+          const Bond<dim> &bond = families[i].bonds[k];
+          const Bond<dim> *const right =
+              rule ? find_bond(rule->families[i], families[i].neighbours[k]) : nullptr;
+          distances.push_back(bond.kernel_point.distance(right ? right->kernel_point : bond.xi) /
+                              cell_size<dim>(bond.area));
+        }
       return spread_of(distances).median;
     }
 
@@ -76,13 +84,13 @@ namespace plumbline::meshfree
   {
     constexpr double in_place = .5, much_closer = .25;
     const std::vector<Family<dim>> &families = evidence.given.families;
-    const double given_misplacement = misplacement(families);
+    const double given_misplacement = misplacement(families, evidence.rule);
     if (given_misplacement < in_place)
       return {};
     for (const PointHypothesis<dim> &hypothesis : point_hypotheses(evidence.given))
     {
       const auto undo = for_each_bond<dim>(hypothesis.undo);
-      const double left = misplacement(undone<dim>(families, undo));
+      const double left = misplacement(undone<dim>(families, undo), evidence.rule);
       if (left > in_place || left > much_closer * given_misplacement)
         continue;
       Mend<dim> mend{{hypothesis.name, hypothesis.text}, undo};

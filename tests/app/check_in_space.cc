@@ -374,7 +374,8 @@ namespace
                  { return vector_of(row, one).norm() > (m - 1e-6) * h; }),
          "bonds as long as the horizon are left out, r < horizon instead of r <= horizon"},
         {"IPA-AC-R2", "IPA-AC-R2", true,
-         each([](Row &row, const Dump &one) { row.weight *= 1 + .1 * vector_of(row, one)[2] / h; }),
+         each([](Row &row, const Dump &one)
+              { row.weight *= 1 + .03 * vector_of(row, one)[2] / h; }),
          "cause: the weights have a drift", 3}};
   }
 
@@ -395,10 +396,6 @@ namespace
          each([](Row &row, const Dump &one)
               { row.kernel_point += dealii::Tensor<1, 3>(one.places[row.i]); }),
          "cause: the kernel points (qx, qy, qz) are absolute places"},
-        {"IPA-AC-R2", "IPA-AC-R2", false,
-         each([](Row &row, const Dump &one)
-              { row.kernel_point -= dealii::Tensor<1, 3>(vector_of(row, one)); }),
-         "cause: the kernel points (qx, qy, qz) are relative to node j"},
         {"IPA-AC-R2", "IPA-AC-R2", true,
          [](Dump &one) { one.volumes.assign(one.volumes.size(), h * h); },
          "cause: the volumes are 5 times the volumes of their cells, as areas h^2 in place of "
@@ -496,6 +493,8 @@ TEST_F(CheckInSpace, finds_nothing_in_right_weights)
     for (const bool is_tensor : {false, true})
       for (const std::string rule : {"FA", "LAMMPS", "IPA-AC", "IPA-AC-R2"})
       {
+        if (moved > 0 && is_tensor == (rule == "IPA-AC"))
+          continue; // kernel points of scalars differ, those of tensors are the same
         write(moved > 0 ? scattered_dump(rule, is_tensor, moved) : dump(rule, is_tensor));
         const Outcome outcome =
             check(rule, is_tensor,
@@ -520,16 +519,24 @@ TEST_F(CheckInSpace, names_what_is_wrong_on_scattered_nodes)
        "cause: the weights are made with the volume of node i itself"},
       {without([](const Row &row, const Dump &) { return row.j < row.i; }), "(a half list)"},
       {[](Dump &one) { one.rows[1234].weight *= 1.5; }, "outlier: the bond from node"}};
-  const Dump right = scattered_dump("FA", true, .3);
-  for (const auto &[change, words] : all)
+  const auto expect_named =
+      [&](const Dump &right, const std::string &rule, bool is_tensor, const WrongOnNodes &wrong)
   {
     Dump one = right;
-    change(one);
+    wrong.change(one);
     write(one);
-    const Outcome outcome = check("FA", true, "--json --require moments=1");
-    EXPECT_EQ(outcome.exit_code, 1) << words << outcome.out << outcome.err;
-    expect_found(outcome.out, words);
-  }
+    const Outcome outcome = check(rule, is_tensor, "--json --require moments=1");
+    EXPECT_EQ(outcome.exit_code, 1) << wrong.words << outcome.out << outcome.err;
+    expect_found(outcome.out, wrong.words);
+  };
+  const Dump right = scattered_dump("FA", true, .3);
+  for (const WrongOnNodes &one : all)
+    expect_named(right, "FA", true, one);
+  const auto to_neighbour =
+      each([](Row &row, const Dump &one)
+           { row.kernel_point -= dealii::Tensor<1, 3>(vector_of(row, one)); });
+  expect_named(scattered_dump("IPA-AC-R2", false, .3), "IPA-AC-R2", false,
+               {to_neighbour, "cause: the kernel points (qx, qy, qz) are relative to node j"});
 }
 
 TEST_F(CheckInSpace, asks_whether_the_scene_is_that_of_the_bonds)
@@ -537,7 +544,7 @@ TEST_F(CheckInSpace, asks_whether_the_scene_is_that_of_the_bonds)
   write(dump("IPA-AC-R2", false));
   for (const auto &[set, words] :
        {std::pair{"--set Study/h=0.1", "the nodes' spacing is 0.2, but h is 0.1"},
-        std::pair{"--set Study/m=4", "the longest bond is 0.447214, but the horizon is 0.8"}})
+        std::pair{"--set Study/m=4", "the longest bond is 0.489898, but the horizon is 0.8"}})
   {
     const Outcome outcome = check("IPA-AC-R2", false, set);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;

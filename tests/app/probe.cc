@@ -231,7 +231,7 @@ TEST_F(Probe, recovers_weights_in_space_and_check_judges_them)
     expect_found(outcome.out, "8 displaced");
     expect_found(outcome.out, "55 of the command");
     expect_recovered(8);
-    const Outcome judged = check("");
+    const Outcome judged = check("-o " + path("check"));
     EXPECT_EQ(judged.exit_code, exit_code) << judged.out << judged.err;
     expect_found(judged.out, std::string("the weights are those of ") + rule + "\n");
   }

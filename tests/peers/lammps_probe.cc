@@ -137,9 +137,10 @@ TEST(LammpsProbe, derives_the_weights_of_our_rule_in_space)
         << m << "\nend\n";
     const Outcome judged =
         run("check " + lammps.path("nodes.csv") + " " + lammps.path("bonds.csv") +
-            " --bonds-are 'force constants' --scene " + lammps.path("scene.prm"));
+            " --bonds-are 'force constants' --scene " + lammps.path("scene.prm") + " -o " +
+            lammps.path("check"));
     EXPECT_EQ(judged.exit_code, 1) << judged.err;
     expect_found(judged.out, "the weights are those of LAMMPS\n");
-    expect_found(judged.out, "required ac: first moments are off by");
+    expect_found(judged.out, "required ac: second moments are off by");
   }
 }

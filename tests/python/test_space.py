@@ -30,8 +30,8 @@ def nodes_and_bonds(rule, kernel):
     return (at + .5) * h, np.full(len(at), h**3), i, np.array(j), w, points
 
 
-def check(rule, kernel, change=lambda w: w, **options):
-    nodes, volumes, i, j, w, points = nodes_and_bonds(rule, kernel)
+def check(of, kernel, change=lambda w: w, **options):
+    nodes, volumes, i, j, w, points = nodes_and_bonds(of, kernel)
     return space.check(nodes, volumes, i, j, change(w), kernel, boxes=((0, 0, 0), (1, 1, 1)),
                        points=points, **options)
 
