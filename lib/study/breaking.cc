@@ -315,11 +315,13 @@ namespace plumbline::study
     return n >= 3 ? (n * tx - t * x) / (n * tt - t * t) : 0;
   }
 
-  double fastest_speed(const NotchCrack &crack, double way)
+  double fastest_speed(const NotchCrack &crack, double horizon)
   {
+    const double way = 4 * horizon;
     double fastest = 0;
     for (std::size_t i = 0; i < crack.t.size(); ++i)
-      for (std::size_t j = i + 1; j < crack.t.size(); ++j)
+      for (std::size_t j = i + 1; j < crack.t.size() && crack.tip[j] - crack.tip[j - 1] <= horizon;
+           ++j)
         if (crack.tip[j] - crack.tip[i] >= way)
         {
           fastest = std::max(fastest, (crack.tip[j] - crack.tip[i]) / (crack.t[j] - crack.t[i]));

@@ -105,8 +105,9 @@ namespace plumbline::study
   /// time; 0: fewer than three points.
   double fitted_speed(const NotchCrack &crack);
 
-  /// Largest mean speed over any way of the tip of at least this length.
-  double fastest_speed(const NotchCrack &crack, double way);
+  /// Largest mean speed over any way of the tip of at least four horizons, in which it does not
+  /// jump by more than a horizon at once, to a crack that began ahead of it; 0: there is none.
+  double fastest_speed(const NotchCrack &crack, double horizon);
 
   /// What is not in the model, for reports.
   std::vector<std::string> left_out_of_breaking();

@@ -59,11 +59,13 @@ namespace plumbline::study
     {
       constexpr double tolerance = 1e-11;
       const auto at = [&](double t) { return drive_at(scene, body, level.horizon, t); };
+      const std::string load = scene.problem.loads.empty() ? "" : "Problem/load",
+                        grips = scene.problem.constraint ? "Problem/constraint" : "",
+                        both = grips + (grips.empty() || load.empty() ? "" : " and ") + load;
       analysis::TimeSeries drive =
-          scene.is_steady() ? analysis::TimeSeries(at(0))
-                            : analysis::TimeSeries::resolve(
-                                  at, scene.time.final_time, tolerance,
-                                  "Problem/constraint, with Problem/load where it is given,");
+          scene.is_steady()
+              ? analysis::TimeSeries(at(0))
+              : analysis::TimeSeries::resolve(at, scene.time.final_time, tolerance, both);
       Vector velocity = first_velocity(scene, body, level);
       return {std::move(body), std::move(drive), scene.time.density, scene.time.damping,
               std::move(velocity)};
@@ -234,11 +236,10 @@ namespace plumbline::study
     void add_outcome(const scene::Scene &scene, const NotchCrack &main, double horizon,
                      Record &record)
     {
-      constexpr double window = 4; // horizons
       const physics::Lame lame = scene.material.lame()(main.from);
       const double c_T = std::sqrt(lame.mu / scene.time.density),
                    c_R = c_T * rayleigh_ratio(lame.mu / (lame.lambda + 2 * lame.mu)),
-                   speed = fitted_speed(main), fastest = fastest_speed(main, window * horizon);
+                   speed = fitted_speed(main), fastest = fastest_speed(main, horizon);
       record.set("c_T", c_T, "length/time");
       record.set("c_R", c_R, "length/time");
       record.set("speed", speed, "length/time");

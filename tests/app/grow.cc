@@ -451,7 +451,7 @@ namespace
   std::string branching_plate()
   {
     return "grow " + std::string(PLUMBLINE_SCENES) +
-           "/fracture/branching_plate.prm --quiet --set Study/h=0.002 --set Study/m=3 --set "
+           "/fracture/branching_plate.prm --quiet --set Study/h=0.001 --set "
            "Expected/values= ";
   }
 
@@ -494,6 +494,8 @@ TEST(GrowInMotion, refuses_what_has_no_meaning_in_motion)
   expect_refused(plate + set("Domain/fixed=0, 0.0175 : 0.1, 0.02"),
                  "needs Problem/constraint, the displacement of the grips in x, y and t");
   expect_refused(plate + set("Problem/load="), "something that moves the body");
+  expect_refused(plate + set("Problem/load=0, t < 1e-5 ? t : 1e-5"),
+                 "Problem/load: 65 Chebyshev points up to Time/final time do not resolve it in t");
   expect_refused(plate + set("Fracture/stretch=finite"), "no energy to be balanced");
   expect_refused(plate + set("Fracture/min reaction=0.1"),
                  "Fracture/min reaction = 0.1 has no effect");

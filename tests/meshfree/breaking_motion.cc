@@ -162,7 +162,7 @@ TEST(BreakingMotion, a_bond_breaks_once_at_its_limit_and_takes_its_energy)
 
 TEST(BreakingMotion, energy_is_balanced_to_the_square_of_the_step)
 {
-  // work = kinetic + bonds + broken; measured 2.4e-3, 5.9e-4 and 1.5e-4
+  // work = kinetic + bonds + broken
   const double coarse = energy_imbalance(history_of(10, .004, "coarse").samples),
                middle = energy_imbalance(history_of(10, .002, "middle").samples),
                fine = energy_imbalance(history_of(10, .001, "fine").samples);
@@ -170,7 +170,7 @@ TEST(BreakingMotion, energy_is_balanced_to_the_square_of_the_step)
   EXPECT_LT(fine, 1e-3);
 }
 
-TEST(BreakingMotion, a_crack_runs_symmetrically_and_its_history_does_not_depend_on_samples)
+TEST(BreakingMotion, bonds_break_symmetrically_and_their_history_does_not_depend_on_samples)
 {
   const BreakingHistory few = history_of(5, .002, "few"), many = history_of(50, .002, "many");
   ASSERT_GT(few.broken(end).size(), 100U);
@@ -233,7 +233,10 @@ TEST(NotchCracks, angle_speed_and_branches_follow_from_the_sides)
   EXPECT_NEAR(crack.angle, 60, 1e-9);
   EXPECT_NEAR(crack.way, 39.5 * h, 1e-12);
   EXPECT_NEAR(fitted_speed(crack), h / .1, 1e-9);
-  EXPECT_NEAR(fastest_speed(crack, 4 * h), h / .1, 1e-9);
+  EXPECT_NEAR(fastest_speed(crack, 2 * h), h / .1, 1e-9);
+  for (std::size_t i = 20; i < 40; ++i) // it meets a crack that began ahead of it
+    crack.tip[i] += 20 * h;
+  EXPECT_NEAR(fastest_speed(crack, 2 * h), h / .1, 1e-9);
   EXPECT_EQ(crack.branched, 0);
 
   CrackPath fork; // two branches, farther apart than a horizon from some 9 h on
