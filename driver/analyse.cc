@@ -314,7 +314,8 @@ namespace plumbline::driver
                           if (results.is_complete)
                             work.journal().remove();
                         });
-    const bool is_ended_by_worker = code_of_workers > 0 && !is_interrupted();
+    const bool is_ended_by_worker =
+        code_of_workers > 0 && !results.is_complete && !is_interrupted();
     if (task.ranks.rank() == 0)
       tell_end(task, options, results, folder, !results.is_complete && !is_ended_by_worker);
     return is_ended_by_worker ? code_of_workers : exit_code(task, options.check, results);

@@ -44,7 +44,7 @@ namespace plumbline::driver
     for (const base::BadEnding &bad : base::work_off(tasks, options.n_jobs, arguments, wait))
     {
       exit_code = bad.exit_code > 0 ? bad.exit_code : 3;
-      std::cerr << "plumbline: a worker process (--jobs) " << bad.how << "; its " << task
+      std::cerr << "plumbline: a worker process (--jobs) " << bad.how << "; if a " << task
                 << " is missing, the same command tries it again\n";
     }
     return exit_code;

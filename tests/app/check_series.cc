@@ -132,9 +132,9 @@ TEST_F(CheckSeries, goes_on_after_a_kill_between_levels_to_the_same_bits)
   for (const double h : sizes_)
     write_level("IPA-AC-R2", h);
   const fs::path whole = folder_ / "whole", killed = folder_ / "killed";
-  const std::string base = folder_.string(), command = "check " + base + "/nodes_{h}.csv " + base +
-                                                       "/bonds_{h}.csv --scene " + scene_file +
-                                                       " -o ";
+  const std::string base = folder_.string(), command = "check '" + base + "/nodes_{h}.csv' '" +
+                                                       base + "/bonds_{h}.csv' --scene " +
+                                                       scene_file + " -o ";
   ASSERT_EQ(run(command + whole.string()).exit_code, 0);
   EXPECT_FALSE(fs::exists(whole / "check.jsonl"));
   ASSERT_TRUE(kill_at(command + killed.string(), killed / "check.jsonl"))

@@ -140,7 +140,8 @@ TEST(Jobs, tell_once_that_a_worker_has_died_and_finish_what_the_others_can)
 {
   const fs::path folder = temporary("died"), err = temporary("err");
   const pid_t command = start(long_run + "--jobs 2 -o " + folder.string(), err.string());
-  wait_for_records(folder, 1);
+  wait_for_records(folder, 3); // Galerkin methods of the finest level take longer than rules
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const std::string process = std::to_string(command);
   std::istringstream workers(read("/proc/" + process + "/task/" + process + "/children"));
   pid_t worker = 0;
@@ -148,7 +149,7 @@ TEST(Jobs, tell_once_that_a_worker_has_died_and_finish_what_the_others_can)
   kill(worker, SIGKILL);
   EXPECT_EQ(exit_code_of(command), 3);
   const std::string said = read(err);
-  EXPECT_EQ(count(said, "a worker process (--jobs) was ended by a signal (Killed); its task is "
+  EXPECT_EQ(count(said, "a worker process (--jobs) was ended by a signal (Killed); if a task is "
                         "missing, the same command tries it again"),
             1u)
       << said;
@@ -166,5 +167,5 @@ TEST(Jobs, are_refused_where_processes_cannot_share)
   expect_refused(reference + "--jobs 2 --set 'Study/decisive error=averages L2 | own finest level'",
                  "--jobs = 2: each method is compared with its own finest level");
   expect_refused("crack --jobs 2 " + std::string(PLUMBLINE_SCENES) + "/griffith/branching.prm",
-                 "the argument '--jobs 2");
+                 "the argument '--jobs ");
 }
