@@ -90,19 +90,19 @@ namespace plumbline::io
                  place, "has an upper corner that is not above and right of the lower one");
       }
 
-      void blocks(const study::SolutionBlocks &blocks, const std::string &place) const
+      void grid(const study::SolutionGrid &grid, const std::string &place) const
       {
-        level(blocks, place);
-        length(blocks.side, place + ".side");
+        level(grid, place);
+        length(grid.spacing, place + ".spacing");
         std::size_t n = 1;
-        for (const unsigned int of_axis : blocks.n)
+        for (const unsigned int of_axis : grid.n)
         {
           expect(of_axis > 0 && of_axis <= most_blocks, place,
                  "has n_x, n_y or n_z outside of [1, " + std::to_string(most_blocks) + "]");
           n *= of_axis;
         }
-        expect(blocks.values.size() == n, place + ".values",
-               "has " + std::to_string(blocks.values.size()) +
+        expect(grid.values.size() == n, place + ".values",
+               "has " + std::to_string(grid.values.size()) +
                    " numbers, not n_x * n_y * n_z = " + std::to_string(n));
       }
 
@@ -136,9 +136,9 @@ namespace plumbline::io
     Checks::each(results.maps, "maps",
                  [&](const study::ErrorMap &map, const std::string &place)
                  { checks.map(map, place); });
-    Checks::each(results.solution_blocks, "solution_blocks",
-                 [&](const study::SolutionBlocks &blocks, const std::string &place)
-                 { checks.blocks(blocks, place); });
+    Checks::each(results.solution_grids, "solution_grids",
+                 [&](const study::SolutionGrid &grid, const std::string &place)
+                 { checks.grid(grid, place); });
     Checks::each(results.advice, "advice",
                  [&](const study::Advice &advice, const std::string &place)
                  {

@@ -127,20 +127,22 @@ namespace plumbline::study
   }
 
   template <typename Archive>
-  void visit(Archive &a, SolutionBlocks &blocks)
+  void visit(Archive &a, SolutionGrid &grid)
   {
-    a("method", blocks.method);
-    a("problem", blocks.problem);
-    a("series", blocks.series);
-    a("h", blocks.h);
-    a("horizon", blocks.horizon);
-    a("lower", blocks.lower);
-    a("side", blocks.side);
-    a("n_x", blocks.n[0]);
-    a("n_y", blocks.n[1]);
-    a("n_z", blocks.n[2]);
-    a("n_components", blocks.n_components);
-    a("values", blocks.values);
+    a("method", grid.method);
+    a("problem", grid.problem);
+    a("series", grid.series);
+    a("h", grid.h);
+    a("horizon", grid.horizon);
+    a("lower", grid.lower);
+    a("upper", grid.upper);
+    a("first", grid.first);
+    a("spacing", grid.spacing);
+    a("n_x", grid.n[0]);
+    a("n_y", grid.n[1]);
+    a("n_z", grid.n[2]);
+    a("n_components", grid.n_components);
+    a("values", grid.values);
   }
 
   template <typename Archive>
@@ -165,7 +167,7 @@ namespace plumbline::study
     a("expectations", results.expectations);
     a("omissions", results.omissions);
     a("maps", results.maps);
-    a("solution_blocks", results.solution_blocks);
+    a("solution_grids", results.solution_grids);
     a("records", results.records);
     a("savings", results.savings);
     a("left_out", results.left_out);

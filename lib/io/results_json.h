@@ -8,7 +8,7 @@
 namespace plumbline::io
 {
   /// The number under "schema" of results; it changes when a key changes its meaning or goes away.
-  constexpr unsigned int schema = 7;
+  constexpr unsigned int schema = 8;
 
   /// What a study finds, as results.schema.json describes it. Numbers are the shortest decimals (at
   /// most 17 digits) that read back to the same double; NaN and infinity are null.

@@ -306,18 +306,18 @@ namespace plumbline::report
                               solution_script(*map, name + ".svg", names), "",
                               solution_table(*map)});
         }
-      if (const auto &blocks = results.solution_blocks; !blocks.empty())
+      if (const auto &grids = results.solution_grids; !grids.empty())
       {
-        const auto is_reference = [&](const study::SolutionBlocks &one)
+        const auto is_reference = [&](const study::SolutionGrid &one)
         {
           return std::any_of(names.begin(), names.end(),
                              [&](const MethodName &method)
                              { return method.name == one.method && method.is_reference(); });
         };
-        const auto found = std::find_if(blocks.begin(), blocks.end(), is_reference);
-        const study::SolutionBlocks &shown = found == blocks.end() ? blocks.front() : *found;
+        const auto found = std::find_if(grids.begin(), grids.end(), is_reference);
+        const study::SolutionGrid &shown = found == grids.end() ? grids.front() : *found;
         if (const std::string script = surfaces_script(shown, "surfaces.svg"); !script.empty())
-          pictures.push_back({"surfaces", surfaces_title(shown), script, "", blocks_table(shown)});
+          pictures.push_back({"surfaces", surfaces_title(shown), script, "", grid_table(shown)});
       }
       return pictures;
     }

@@ -20,56 +20,56 @@ namespace plumbline::report
 {
   namespace
   {
-    using study::SolutionBlocks;
+    using study::SolutionGrid;
 
     /// Parts of the range, with viridis at the same parts.
     constexpr std::array<std::pair<double, const char *>, 3> levels = {
         {{.25, "#3b528b"}, {.5, "#21918c"}, {.75, "#5ec962"}}};
 
-    std::string symbol(const SolutionBlocks &blocks)
+    std::string symbol(const SolutionGrid &grid)
     {
-      return blocks.n_components == 1 ? "u" : "|u|";
+      return grid.n_components == 1 ? "u" : "|u|";
     }
 
-    std::string place(const SolutionBlocks &blocks)
+    std::string place(const SolutionGrid &grid)
     {
-      return blocks.problem + (blocks.series.empty() ? "" : ", " + blocks.series) +
-             ", h = " + rounded(blocks.h);
+      return grid.problem + (grid.series.empty() ? "" : ", " + grid.series) +
+             ", h = " + rounded(grid.h);
     }
 
-    /// f(centre, value) for the blocks inside the domain, in the order of `values`.
+    /// f(number, centre) for the cells inside the domain, in the order of `values`.
     template <class F>
-    void for_each_block(const SolutionBlocks &blocks, const F &f)
+    void for_each_cell(const SolutionGrid &grid, const F &f)
     {
       std::size_t i = 0;
-      for (unsigned int z = 0; z < blocks.n[2]; ++z)
-        for (unsigned int y = 0; y < blocks.n[1]; ++y)
-          for (unsigned int x = 0; x < blocks.n[0]; ++x, ++i)
-            if (std::isfinite(blocks.values[i]))
-              f(i, dealii::Point<3>(blocks.lower[0] + (x + .5) * blocks.side,
-                                    blocks.lower[1] + (y + .5) * blocks.side,
-                                    blocks.lower[2] + (z + .5) * blocks.side));
+      for (unsigned int z = 0; z < grid.n[2]; ++z)
+        for (unsigned int y = 0; y < grid.n[1]; ++y)
+          for (unsigned int x = 0; x < grid.n[0]; ++x, ++i)
+            if (std::isfinite(grid.values[i]))
+              f(i,
+                dealii::Point<3>(grid.first[0] + x * grid.spacing, grid.first[1] + y * grid.spacing,
+                                 grid.first[2] + z * grid.spacing));
     }
 
-    /// Values at the centres of blocks, and a mesh of the cubes between eight of them.
+    /// Values at the centres of cells, and a mesh of the cubes between eight of them.
     class Interpolant
     {
     public:
-      explicit Interpolant(const SolutionBlocks &blocks) : element_(1)
+      explicit Interpolant(const SolutionGrid &grid) : element_(1)
       {
         constexpr auto outside = std::numeric_limits<unsigned int>::max();
-        std::vector<unsigned int> vertex(blocks.values.size(), outside);
+        std::vector<unsigned int> vertex(grid.values.size(), outside);
         std::vector<dealii::Point<3>> centres;
         std::vector<double> values;
-        for_each_block(blocks,
-                       [&](std::size_t i, const dealii::Point<3> &centre)
-                       {
-                         vertex[i] = centres.size();
-                         centres.push_back(centre);
-                         values.push_back(blocks.values[i]);
-                       });
+        for_each_cell(grid,
+                      [&](std::size_t i, const dealii::Point<3> &centre)
+                      {
+                        vertex[i] = centres.size();
+                        centres.push_back(centre);
+                        values.push_back(grid.values[i]);
+                      });
         std::vector<dealii::CellData<3>> cubes;
-        const auto &n = blocks.n;
+        const auto &n = grid.n;
         for (unsigned int z = 0; z + 1 < n[2]; ++z)
           for (unsigned int y = 0; y + 1 < n[1]; ++y)
             for (unsigned int x = 0; x + 1 < n[0]; ++x)
@@ -100,7 +100,10 @@ namespace plumbline::report
           }
       }
 
-      bool has_surfaces() const { return high_ > low_; }
+      bool has_surfaces() const
+      {
+        return high_ - low_ > round_off * std::max(std::abs(low_), std::abs(high_));
+      }
 
       /// The value at this part of the range.
       double level(double part) const { return low_ + part * (high_ - low_); }
@@ -139,15 +142,14 @@ namespace plumbline::report
     };
   } // namespace
 
-  std::string surfaces_title(const SolutionBlocks &blocks)
+  std::string surfaces_title(const SolutionGrid &grid)
   {
-    return place(blocks) + ": surfaces of equal " + symbol(blocks) + " computed with " +
-           blocks.method;
+    return place(grid) + ": surfaces of equal " + symbol(grid) + " computed with " + grid.method;
   }
 
-  std::string surfaces_script(const SolutionBlocks &blocks, const std::string &file)
+  std::string surfaces_script(const SolutionGrid &grid, const std::string &file)
   {
-    const Interpolant interpolant(blocks);
+    const Interpolant interpolant(grid);
     if (!interpolant.has_surfaces())
       return "";
     std::ostringstream data, plots;
@@ -159,7 +161,7 @@ namespace plumbline::report
         data << "$s" << n << " << EOD\n" << surface << "EOD\n";
         plots << (n > 0 ? ", " : "splot ") << "$s" << n << " with polygons fc rgb '" << colour
               << "' notitle, keyentry with lines lw 8 lc rgb '" << colour << "' title "
-              << quote_gnuplot(symbol(blocks) + " = " + rounded(interpolant.level(part)));
+              << quote_gnuplot(symbol(grid) + " = " + rounded(interpolant.level(part)));
         ++n;
       }
     std::ostringstream out;
@@ -167,36 +169,36 @@ namespace plumbline::report
         << data.str()
         << "set terminal svg size 820,560 dynamic enhanced font 'sans-serif,14' background "
            "'#ffffff'\nset output "
-        << quote_gnuplot(file) << "\nset title " << quote_gnuplot(surfaces_title(blocks))
+        << quote_gnuplot(file) << "\nset title " << quote_gnuplot(surfaces_title(grid))
         << " noenhanced font ',15'\nset border 4095 lc rgb '#888888'\n"
            "set tics font ',11' textcolor rgb '#222222'\nset view 62,32,1.25\nset view equal xyz\n"
            "set xyplane at "
-        << exact(blocks.lower[2]) << "\nset key noenhanced textcolor rgb '#222222'\n"
+        << exact(grid.lower[2]) << "\nset key noenhanced textcolor rgb '#222222'\n"
         << "set pm3d depthorder noborder\nset pm3d lighting primary .35 specular .1\n"
            "set style fill transparent solid .5\n";
     for (unsigned int d = 0; d < 3; ++d)
       out << "set "
-          << "xyz"[d] << "range [" << exact(blocks.lower[d]) << ":"
-          << exact(blocks.lower[d] + blocks.n[d] * blocks.side) << "]\nset "
+          << "xyz"[d] << "range [" << exact(grid.lower[d]) << ":" << exact(grid.upper[d])
+          << "]\nset "
           << "xyz"[d] << "label '"
           << "xyz"[d] << " [length]' font ',12'\n";
     out << plots.str() << "\nunset output\n";
     return out.str();
   }
 
-  Table blocks_table(const SolutionBlocks &blocks)
+  Table grid_table(const SolutionGrid &grid)
   {
     Table table;
     table.columns = {"method",     "problem",    "series",     "h [length]",
-                     "x [length]", "y [length]", "z [length]", symbol(blocks)};
-    for_each_block(blocks,
-                   [&](std::size_t i, const dealii::Point<3> &centre)
-                   {
-                     table.rows.push_back({text_cell(blocks.method), text_cell(blocks.problem),
-                                           text_cell(blocks.series), number_cell(blocks.h),
-                                           number_cell(centre[0]), number_cell(centre[1]),
-                                           number_cell(centre[2]), number_cell(blocks.values[i])});
-                   });
+                     "x [length]", "y [length]", "z [length]", symbol(grid)};
+    for_each_cell(grid,
+                  [&](std::size_t i, const dealii::Point<3> &centre)
+                  {
+                    table.rows.push_back({text_cell(grid.method), text_cell(grid.problem),
+                                          text_cell(grid.series), number_cell(grid.h),
+                                          number_cell(centre[0]), number_cell(centre[1]),
+                                          number_cell(centre[2]), number_cell(grid.values[i])});
+                  });
     return table;
   }
 } // namespace plumbline::report

@@ -8,15 +8,16 @@
 namespace plumbline::report
 {
   /// Of a solution in space: the surfaces on which u (|u| of vectors) has a quarter, half and three
-  /// quarters of its range, by trilinear interpolation between the centres of blocks; none within
-  /// half a block of the boundary. By deal.II's marching cubes.
-  /// @return commands of gnuplot; empty where no surface can be drawn: u is constant, or the body
-  /// is one block thick
-  std::string surfaces_script(const study::SolutionBlocks &blocks, const std::string &file);
+  /// quarters of its range, by deal.II's marching cubes, trilinear between the centres of eight
+  /// cells of the grid that lie in the body. So none within half a spacing of the boundary, and
+  /// none in parts that are one cell of the grid thick.
+  /// @return commands of gnuplot; empty where no surface can be drawn: u is constant up to
+  /// round-off, or no eight cells lie together in the body
+  std::string surfaces_script(const study::SolutionGrid &grid, const std::string &file);
 
   /// "u, m = 3, h = 0.05: surfaces of equal u computed with Q1".
-  std::string surfaces_title(const study::SolutionBlocks &blocks);
+  std::string surfaces_title(const study::SolutionGrid &grid);
 
-  /// A row for each block inside the domain, at its centre.
-  Table blocks_table(const study::SolutionBlocks &blocks);
+  /// A row for each cell of the grid inside the domain, at its centre.
+  Table grid_table(const study::SolutionGrid &grid);
 } // namespace plumbline::report

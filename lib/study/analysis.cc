@@ -356,7 +356,7 @@ namespace plumbline::study
                  one.series == place.series().name;
         };
         take(results_.maps, earlier_.maps, is_drawn_here);
-        take(results_.solution_blocks, earlier_.solution_blocks, is_drawn_here);
+        take(results_.solution_grids, earlier_.solution_grids, is_drawn_here);
         note_told();
         return own;
       }

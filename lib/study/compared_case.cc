@@ -23,11 +23,10 @@ namespace plumbline::study
     place.results().maps.push_back(std::move(map));
   }
 
-  void add_blocks(const Place &place, const std::function<SolutionBlocks()> &make,
-                  const Record &run)
+  void add_grid(const Place &place, const std::function<SolutionGrid()> &make, const Record &run)
   {
     StudyResults &results = place.results();
-    const auto is_of_family = [&](const SolutionBlocks &one)
+    const auto is_of_family = [&](const SolutionGrid &one)
     {
       return std::any_of(results.records.begin(), results.records.end(),
                          [&](const Record &record) {
@@ -35,12 +34,12 @@ namespace plumbline::study
                                   record.key.family == run.key.family;
                          });
     };
-    if (std::any_of(results.solution_blocks.begin(), results.solution_blocks.end(), is_of_family))
+    if (std::any_of(results.solution_grids.begin(), results.solution_grids.end(), is_of_family))
       return;
-    SolutionBlocks blocks = make();
-    blocks.method = run.key.method;
-    blocks.problem = run.key.problem;
-    blocks.series = run.key.series;
-    results.solution_blocks.push_back(std::move(blocks));
+    SolutionGrid grid = make();
+    grid.method = run.key.method;
+    grid.problem = run.key.problem;
+    grid.series = run.key.series;
+    results.solution_grids.push_back(std::move(grid));
   }
 } // namespace plumbline::study

@@ -64,7 +64,6 @@ namespace plumbline::study
   /// Add a picture of a solution to the results.
   void add_map(const Place &place, ErrorMap map, const Record &run);
 
-  /// Add the blocks of a solution in space, unless a method of the same family has some.
-  void add_blocks(const Place &place, const std::function<SolutionBlocks()> &make,
-                  const Record &run);
+  /// Add the grid of a solution in space, unless a method of the same family has one.
+  void add_grid(const Place &place, const std::function<SolutionGrid()> &make, const Record &run);
 } // namespace plumbline::study

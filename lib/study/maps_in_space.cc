@@ -109,32 +109,43 @@ namespace plumbline::study
     return maps;
   }
 
-  SolutionBlocks solution_blocks(const ProblemInSpace &problem, const Communicator &ranks,
-                                 const std::vector<double> &averages)
+  SolutionGrid solution_grid(const ProblemInSpace &problem, const Communicator &ranks,
+                             const std::vector<double> &averages)
   {
-    constexpr int most_blocks = 12;
-    const auto &n = problem.lattice.n_cells();
-    const int per_block = (*std::max_element(n.begin(), n.end()) + most_blocks - 1) / most_blocks;
-    SolutionBlocks blocks;
-    blocks.h = problem.h();
-    blocks.horizon = problem.horizon();
-    blocks.side = per_block * problem.h();
-    blocks.n_components = problem.n_components;
+    constexpr int most = 12;
+    const geometry::CubeLattice &lattice = problem.lattice;
+    const auto &n = lattice.n_cells();
+    const int step = (*std::max_element(n.begin(), n.end()) + most - 1) / most;
+    std::array<int, 3> first{};
+    for (unsigned int d = 0; d < 3; ++d)
+      first[d] = std::min((step - 1) / 2, n[d] - 1);
+    SolutionGrid grid;
+    grid.h = problem.h();
+    grid.horizon = problem.horizon();
+    grid.spacing = step * problem.h();
+    grid.n_components = problem.n_components;
     for (unsigned int d = 0; d < 3; ++d)
     {
-      blocks.lower[d] = problem.lattice.coordinate(d, 0);
-      blocks.n[d] = (n[d] + per_block - 1) / per_block;
+      grid.lower[d] = lattice.coordinate(d, 0);
+      grid.upper[d] = lattice.coordinate(d, n[d]);
+      grid.first[d] = lattice.coordinate(d, first[d] + .5);
+      grid.n[d] = (n[d] - first[d] + step - 1) / step;
     }
-    BlockMeans means(std::size_t{blocks.n[0]} * blocks.n[1] * blocks.n[2]);
+    BlockMeans values(std::size_t{grid.n[0]} * grid.n[1] * grid.n[2]);
     for_each_own_cell(problem, ranks,
                       [&](const std::array<int, 3> &cell, std::size_t place)
                       {
-                        std::size_t block = 0;
+                        std::size_t point = 0;
                         for (const unsigned int d : {2u, 1u, 0u})
-                          block = block * blocks.n[d] + cell[d] / per_block;
-                        means.add(block, &averages[place], problem.n_components);
+                        {
+                          const int steps = cell[d] - first[d];
+                          if (steps < 0 || steps % step != 0)
+                            return;
+                          point = point * grid.n[d] + steps / step;
+                        }
+                        values.add(point, &averages[place], problem.n_components);
                       });
-    blocks.values = means.means(ranks);
-    return blocks;
+    grid.values = values.means(ranks);
+    return grid;
   }
 } // namespace plumbline::study

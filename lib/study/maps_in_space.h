@@ -19,8 +19,7 @@ namespace plumbline::study
                                        const std::vector<double> &averages,
                                        const std::vector<double> &target);
 
-  /// Means in at most 12 blocks along each axis.
-  SolutionBlocks solution_blocks(const problem::Problem<3> &problem,
-                                 const base::Communicator &ranks,
-                                 const std::vector<double> &averages);
+  /// The averages over every k-th cell along each axis, at most 12.
+  SolutionGrid solution_grid(const problem::Problem<3> &problem, const base::Communicator &ranks,
+                             const std::vector<double> &averages);
 } // namespace plumbline::study

@@ -153,13 +153,15 @@ namespace plumbline::study
   };
 
   /// A solution in space at the finest level of the last problem and the first series, for pictures
-  /// of the whole body: the mean of u, of |u| if it is a vector, in blocks of cells.
-  struct SolutionBlocks
+  /// of the whole body: the averages of u, of |u| if it is a vector, over every k-th cell along each
+  /// axis, at the centres of these cells.
+  struct SolutionGrid
   {
     std::string method, problem, series;
     double h = 0, horizon = 0;
-    std::array<double, 3> lower{}; ///< corner of the bounding box [length]
-    double side = 0;               ///< of a block [length]
+    std::array<double, 3> lower{}, upper{}; ///< corners of the bounding box [length]
+    std::array<double, 3> first{};          ///< centre of the first cell [length]
+    double spacing = 0;                     ///< of the centres [length]
     std::array<unsigned int, 3> n{};
     unsigned int n_components = 1; ///< of u
     std::vector<double> values;    ///< shape (n[2], n[1], n[0]), NaN outside the domain

@@ -13,7 +13,7 @@ namespace plumbline::study
     action(&StudyResults::estimates);
     action(&StudyResults::savings);
     action(&StudyResults::maps);
-    action(&StudyResults::solution_blocks);
+    action(&StudyResults::solution_grids);
     action(&StudyResults::warnings);
   }
 } // namespace plumbline::study

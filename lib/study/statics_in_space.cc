@@ -236,8 +236,8 @@ namespace plumbline::study
       {
         for (ErrorMap &map : maps_of_layers(one.problem, ranks_, solution.averages, *one.drawn()))
           add_map(place_, std::move(map), run);
-        add_blocks(
-            place_, [&] { return solution_blocks(one.problem, ranks_, solution.averages); }, run);
+        add_grid(
+            place_, [&] { return solution_grid(one.problem, ranks_, solution.averages); }, run);
       }
 
       std::vector<double> nodal_values(const problem::Field<3> &field, unsigned int n_components,

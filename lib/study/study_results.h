@@ -66,7 +66,7 @@ namespace plumbline::study
     std::vector<ErrorEstimate> references; ///< of the scene's reference
     std::vector<ErrorEstimate> estimates;  ///< of other Galerkin solutions
     std::vector<ErrorMap> maps;
-    std::vector<SolutionBlocks> solution_blocks; ///< of the first method of each family
+    std::vector<SolutionGrid> solution_grids; ///< of the first method of each family
     std::vector<Omission> omissions;
     std::vector<Saving> savings; ///< at the coarsest level, of the first method of each side
     std::vector<Expectation> expectations;

@@ -47,8 +47,18 @@ namespace plumbline::io
     results.maps[0].n_components = 2;
     results.maps[0].solution.assign(results.maps[0].values.size(), -1. / 3);
     results.maps[1].axes = "xz";
-    results.solution_blocks.push_back(
-        {"Q1", "case1", "m = 3", .1, .3, {1, 2, 3}, .2, {2, 1, 3}, 3, {0, 1, 2, 1. / 3, 4, 5}});
+    results.solution_grids.push_back({"Q1",
+                                      "case1",
+                                      "m = 3",
+                                      .1,
+                                      .3,
+                                      {1, 2, 3},
+                                      {2, 3, 4},
+                                      {1.1, 2.1, 3.1},
+                                      .2,
+                                      {2, 1, 3},
+                                      3,
+                                      {0, 1, 2, 1. / 3, 4, 5}});
     write_json(results, folder.path() / "a.json");
     const study::StudyResults back = read_results(folder.path() / "a.json");
 
@@ -107,10 +117,11 @@ namespace plumbline::io
     EXPECT_EQ(advice.choices[1].seconds, 3.2);
     EXPECT_EQ(advice.choices[1].tied, std::vector<std::string>{"Q1"});
     EXPECT_EQ(back.warnings, results.warnings);
-    ASSERT_EQ(back.solution_blocks.size(), 1u);
-    EXPECT_EQ(back.solution_blocks[0].lower, results.solution_blocks[0].lower);
-    EXPECT_EQ(back.solution_blocks[0].n, results.solution_blocks[0].n);
-    EXPECT_EQ(back.solution_blocks[0].values, results.solution_blocks[0].values);
+    ASSERT_EQ(back.solution_grids.size(), 1u);
+    EXPECT_EQ(back.solution_grids[0].upper, results.solution_grids[0].upper);
+    EXPECT_EQ(back.solution_grids[0].first, results.solution_grids[0].first);
+    EXPECT_EQ(back.solution_grids[0].n, results.solution_grids[0].n);
+    EXPECT_EQ(back.solution_grids[0].values, results.solution_grids[0].values);
     ASSERT_EQ(back.maps.size(), results.maps.size());
     for (std::size_t i = 0; i < back.maps.size(); ++i)
     {
@@ -261,10 +272,20 @@ namespace plumbline::io
     damaged("\"upper\": [\n    2", "\"upper\": [\n    0");
     expect("maps[0] has an upper corner that is not above and right of the lower one");
     study::StudyResults in_space = fixture::results();
-    in_space.solution_blocks.push_back(
-        {"Q1", "case1", "m = 3", .1, .3, {1, 2, 3}, .2, {2, 1, 3}, 1, {0, 1, 2}});
+    in_space.solution_grids.push_back({"Q1",
+                                       "case1",
+                                       "m = 3",
+                                       .1,
+                                       .3,
+                                       {1, 2, 3},
+                                       {2, 3, 4},
+                                       {1.1, 2.1, 3.1},
+                                       .2,
+                                       {2, 1, 3},
+                                       1,
+                                       {0, 1, 2}});
     write_json(in_space, file);
-    expect("solution_blocks[0].values has 3 numbers, not n_x * n_y * n_z = 6");
+    expect("solution_grids[0].values has 3 numbers, not n_x * n_y * n_z = 6");
     damaged("\"target\": 0.01", "\"target\": null");
     expect("choices[0].target is not a positive number");
     damaged("\"purpose\":", "\"regime\": \"m\", \"purpose\":");

@@ -15,24 +15,26 @@ namespace plumbline::report
 {
   namespace
   {
-    /// u = 2 x in an L of cubes: 4 x 4 x 3 blocks of side 1/2 from (1, 0, 0) without a quarter.
-    study::SolutionBlocks l_shape()
+    /// u = 2 x in an L of cells: 4 x 4 x 3 of side 1/2 from (1, 0, 0) without a quarter.
+    study::SolutionGrid l_shape()
     {
-      study::SolutionBlocks blocks;
-      blocks.method = "Q1";
-      blocks.problem = "u";
-      blocks.series = "m = 3";
-      blocks.h = .25;
-      blocks.horizon = .75;
-      blocks.lower = {1, 0, 0};
-      blocks.side = .5;
-      blocks.n = {4, 4, 3};
+      study::SolutionGrid grid;
+      grid.method = "Q1";
+      grid.problem = "u";
+      grid.series = "m = 3";
+      grid.h = .5;
+      grid.horizon = 1.5;
+      grid.lower = {1, 0, 0};
+      grid.upper = {3, 2, 1.5};
+      grid.first = {1.25, .25, .25};
+      grid.spacing = .5;
+      grid.n = {4, 4, 3};
       for (unsigned int z = 0; z < 3; ++z)
         for (unsigned int y = 0; y < 4; ++y)
           for (unsigned int x = 0; x < 4; ++x)
-            blocks.values.push_back(x >= 2 && y >= 2 ? std::numeric_limits<double>::quiet_NaN()
-                                                     : 2 * (1 + (x + .5) * blocks.side));
-      return blocks;
+            grid.values.push_back(x >= 2 && y >= 2 ? std::numeric_limits<double>::quiet_NaN()
+                                                   : 2 * (grid.first[0] + x * grid.spacing));
+      return grid;
     }
 
     bool holds(const std::string &text, const std::string &part)
@@ -71,7 +73,7 @@ namespace plumbline::report
     }
   } // namespace
 
-  TEST(Surfaces, OfALinearFieldArePlanesBetweenTheCentresOfBlocks)
+  TEST(Surfaces, OfALinearFieldArePlanesBetweenTheCentresOfCells)
   {
     const std::string script = surfaces_script(l_shape(), "surfaces.svg");
     // centres from 1.25 to 2.75: u = 3.25, 4, 4.75 at x = 1.625, 2, 2.375
@@ -84,19 +86,20 @@ namespace plumbline::report
     EXPECT_NEAR(last.area, .5 * 1, 1e-3);   // y up to .75: nothing where there is no body
     for (const std::string key : {"u = 3.25", "u = 4", "u = 4.75"})
       EXPECT_TRUE(holds(script, "title '" + key + "'")) << key;
-    EXPECT_EQ(surfaces_title(l_shape()),
-              "u, m = 3, h = 0.25: surfaces of equal u computed with Q1");
+    EXPECT_EQ(surfaces_title(l_shape()), "u, m = 3, h = 0.5: surfaces of equal u computed with Q1");
   }
 
   TEST(Surfaces, AreNotThereWhereNoneCanBeDrawn)
   {
-    study::SolutionBlocks blocks = l_shape();
-    std::fill(blocks.values.begin(), blocks.values.end(), 1.);
-    EXPECT_EQ(surfaces_script(blocks, "a.svg"), "");
-    blocks = l_shape();
-    blocks.n = {4, 4, 1};
-    blocks.values.resize(16);
-    EXPECT_EQ(surfaces_script(blocks, "a.svg"), "");
+    study::SolutionGrid grid = l_shape();
+    std::fill(grid.values.begin(), grid.values.end(), 1.);
+    EXPECT_EQ(surfaces_script(grid, "a.svg"), "");
+    grid.values.front() += 1e-14; // round-off
+    EXPECT_EQ(surfaces_script(grid, "a.svg"), "");
+    grid = l_shape();
+    grid.n = {4, 4, 1};
+    grid.values.resize(16);
+    EXPECT_EQ(surfaces_script(grid, "a.svg"), "");
   }
 
   TEST(Surfaces, AndMapsOfThreeLayersAreOnThePage)
@@ -110,9 +113,10 @@ namespace plumbline::report
       map.solution.assign(map.values.size(), .5);
       results.maps.push_back(map);
     }
-    results.solution_blocks = {l_shape()};
-    results.solution_blocks.push_back(l_shape());
-    results.solution_blocks[0].method = "FA"; // the Galerkin method is drawn
+    results.solution_grids = {l_shape()};
+    results.solution_grids.push_back(l_shape());
+    results.solution_grids[0].method = "FA"; // the Galerkin method is drawn
+    unsigned int n_found = 0;
     for (const Gallery &gallery : statics_galleries(results))
     {
       std::vector<std::string> names;
@@ -120,6 +124,7 @@ namespace plumbline::report
         names.push_back(picture.name);
       if (gallery.id == "solution")
       {
+        ++n_found;
         EXPECT_EQ(names, (std::vector<std::string>{"solution-xz", "surfaces"}));
         EXPECT_EQ(gallery.pictures[1].title, surfaces_title(l_shape()));
         EXPECT_EQ(gallery.pictures[1].data.rows.size(), 36u);
@@ -127,8 +132,10 @@ namespace plumbline::report
       }
       if (gallery.id == "maps")
       {
+        ++n_found;
         EXPECT_EQ(names, (std::vector<std::string>{"error-maps", "error-maps-xz"}));
       }
     }
+    EXPECT_EQ(n_found, 2u);
   }
 } // namespace plumbline::report

@@ -147,6 +147,22 @@ TEST(SolidsInSpace, have_references_with_estimates_that_bound_their_errors)
     }
 }
 
+TEST(SolidsInSpace, have_a_grid_of_cell_averages_at_the_centres_of_cells)
+{
+  // u = x: in 13 x 13 x 1 cells, every second one, which do not fill the body
+  const auto results = run(make_scene(
+      {{"Domain/boxes", "0,0,0 : 1,1,1/13"}, {"Study/h", "1/13"}, {"Problem/solution", "x"}}));
+  ASSERT_EQ(results.solution_grids.size(), 1u);
+  const SolutionGrid &grid = results.solution_grids[0];
+  EXPECT_EQ(grid.n, (std::array<unsigned int, 3>{7, 7, 1}));
+  EXPECT_NEAR(grid.spacing, 2. / 13, 1e-14);
+  for (unsigned int d = 0; d < 3; ++d)
+    EXPECT_NEAR(grid.upper[d], d == 2 ? 1. / 13 : 1, 1e-14);
+  for (std::size_t j = 0; j < 7; ++j)
+    for (std::size_t i = 0; i < 7; ++i)
+      EXPECT_NEAR(grid.values.at(7 * j + i), grid.first[0] + i * grid.spacing, 1e-10);
+}
+
 TEST(SolidsInSpace, are_drawn_and_written_without_what_is_outside)
 {
   const Folder folder;
@@ -170,18 +186,18 @@ TEST(SolidsInSpace, are_drawn_and_written_without_what_is_outside)
   for (std::size_t k = 0; k < 8; ++k)
     for (std::size_t i = 0; i < 8; ++i)
       EXPECT_EQ(std::isnan(results.maps[1].values.at(8 * k + i)), k >= 2);
-  ASSERT_EQ(results.solution_blocks.size(), 1u);
-  const SolutionBlocks &blocks = results.solution_blocks[0];
-  EXPECT_EQ(blocks.n, (std::array<unsigned int, 3>{8, 8, 8}));
-  EXPECT_EQ(blocks.side, .125);
+  ASSERT_EQ(results.solution_grids.size(), 1u);
+  const SolutionGrid &grid = results.solution_grids[0];
+  EXPECT_EQ(grid.n, (std::array<unsigned int, 3>{8, 8, 8}));
+  EXPECT_EQ(grid.spacing, .125);
   for (std::size_t j = 0; j < 8; ++j)
     for (std::size_t i = 0; i < 8; ++i) // the layers of the maps are z = 1/2 and y = 1/2
     {
       const auto same = [](double a, double b)
       { return a == b || (std::isnan(a) && std::isnan(b)); };
-      EXPECT_TRUE(same(blocks.values.at(8 * (8 * 4 + j) + i), results.maps[0].solution[8 * j + i]));
-      EXPECT_TRUE(same(blocks.values.at(8 * (8 * j + 4) + i), results.maps[1].solution[8 * j + i]));
-      EXPECT_TRUE(same(blocks.values.at(8 * (8 * j + i) + 4), results.maps[2].solution[8 * j + i]));
+      EXPECT_TRUE(same(grid.values.at(8 * (8 * 4 + j) + i), results.maps[0].solution[8 * j + i]));
+      EXPECT_TRUE(same(grid.values.at(8 * (8 * j + 4) + i), results.maps[1].solution[8 * j + i]));
+      EXPECT_TRUE(same(grid.values.at(8 * (8 * j + i) + 4), results.maps[2].solution[8 * j + i]));
     }
   const std::string written = report::fixture::read(folder.path() / "field.vti");
   EXPECT_EQ(n_found(written, "\n32\n"), 512u - 128 - 24);
