@@ -163,8 +163,8 @@ namespace plumbline::app
                       "Number of processes that share the work (default: 1)")
           ->check(CLI::Range(1u, 4096u));
       command.add_option("--threads", request.n_threads,
-                         "Threads of each process (default: all cores, shared among them)");
-      command.add_flag("--worker", options.is_worker)->group(""); // what it begins itself
+                         "Threads of each process (default: all cores, divided among them)");
+      command.add_flag("--worker", options.is_worker)->group(""); // set in its workers
     }
 
     void add_run(CLI::App &app, Request &request)
@@ -230,7 +230,7 @@ namespace plumbline::app
           ->allow_extra_args(false);
       check.add_option("--set", request.settings, "Section/key=value, overrides the scene file");
       check.add_option("--budget", options->budget,
-                       "Of a series of files: skip a level if its weights are expected to take "
+                       "For a series of files: skip a level if its weights are expected to take "
                        "more CPU seconds than this");
       add_threads(check, request);
       check.add_flag("--quiet", options->quiet,

@@ -105,7 +105,7 @@ namespace
                                   " 2>&1 </dev/null";
       if (std::system(command.c_str()) != 0)
       {
-        std::cerr << std::ifstream(folder / "out").rdbuf() << "lmp fails; apt-get install lammps\n";
+        std::cerr << std::ifstream(folder / "out").rdbuf() << "lmp failed (package lammps)\n";
         std::exit(2);
       }
       return children_seconds() - before;
@@ -151,8 +151,8 @@ namespace
   void report(const char *what, double n_own, double seconds, const Peer &peer, double wanted)
   {
     const double ratio = peer.seconds / seconds;
-    std::printf("%-44s %.3ge6 directed bonds (LAMMPS %.3ge6): %7.2f ms a step, %.3fe9 bonds/s; "
-                "LAMMPS %7.2f ms, %.4fe9 bonds/s: %.1f times as fast (wanted %g)\n",
+    std::printf("%-44s %.3ge6 directed bonds (LAMMPS %.3ge6): %7.2f ms per step, %.3fe9 bonds/s; "
+                "LAMMPS %7.2f ms, %.4fe9 bonds/s: %.1f times as fast (target %g)\n",
                 what, 1e-6 * n_own, 1e-6 * peer.n_bonds, 1e3 * seconds,
                 1e-9 * peer.n_bonds / seconds, 1e3 * peer.seconds,
                 1e-9 * peer.n_bonds / peer.seconds, ratio, wanted);

@@ -81,7 +81,7 @@ namespace
       system->vmult(residual, u);
       residual -= b;
       u -= exact;
-      std::printf("   %-11s %4u iterations, setup %6.2f s, solve %7.2f s, %4.0f B an unknown, "
+      std::printf("   %-11s %4u iterations, setup %6.2f s, solve %7.2f s, %4.0f B per unknown, "
                   "residual %.1e, error %.1e\n",
                   solver, solved.n_iterations, setup, seconds,
                   static_cast<double>(memory.peak_bytes()) / static_cast<double>(b.size()),

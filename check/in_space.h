@@ -5,18 +5,18 @@
 
 namespace plumbline::check
 {
-  /// Takes nodes of a periodic box into it and adds their images, makes cells and spacing.
-  /// @param level        that the nodes are of
-  /// @param is_periodic  omega is
+  /// Moves nodes into a periodic box, adds their images, and computes cells and spacing.
+  /// @param level        of the nodes
+  /// @param is_periodic  omega is periodic
   /// @return             weights without families and volumes
   /// @throws InputError  no node in Ω, as geometry::PeriodicBox::take_in and check_sides
   meshfree::GivenWeights<3> with_cells(meshfree::GivenNodes<3> nodes, const geometry::Cuboid &omega,
                                        bool is_periodic, const problem::Level &level);
 
-  /// What is found of weights whose families are read.
+  /// The findings for weights whose families have been read.
   /// @param values  as the other code has them
   /// @param found   has its level
-  /// @param meant   rules that the weights may be of
+  /// @param meant   rules that the weights are intended to follow
   void find_defects(meshfree::BondValues values, meshfree::GivenWeights<3> weights,
                     const physics::Kernel<3> &kernel, const std::vector<std::string> &meant,
                     Findings<3> &found);

@@ -389,8 +389,8 @@ namespace plumbline::check
       if (!Findings<dim>::has_matrix)
       {
         if (required.m_matrix && !found.elastic.empty())
-          result.push_back("required m-matrix: matrices of bond tensors have positive entries off "
-                           "their diagonal; leave this requirement out");
+          result.push_back("required m-matrix: matrices of bond tensors have positive off-diagonal "
+                           "entries; remove this requirement");
         else if (required.m_matrix && found.weights.n_negative > 0)
           result.push_back("required m-matrix: " + std::to_string(found.weights.n_negative) +
                            " weights are negative");

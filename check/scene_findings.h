@@ -58,8 +58,8 @@ namespace plumbline::check
     std::vector<std::size_t> n_crossing; ///< bonds across the sides of a periodic box, else empty
     ChosenLevel level;
     std::vector<CaseCheck> cases; ///< none of bodies
-    /// Of a body with free surfaces or cracks, in the plane, whose families of whole balls are all
-    /// that the other members are about.
+    /// For a body with free surfaces or cracks, in the plane; the other members are then about
+    /// its families with whole balls only.
     std::optional<meshfree::BodyCheck> body = {};
 
     std::string id(std::size_t node) const { return std::to_string(ids[node]); }
@@ -80,7 +80,7 @@ namespace plumbline::check
 
   /// @param references  Galerkin methods for the solutions that those by the weights are held
   /// against
-  /// @param known       records of cases that an earlier check of the same has left: not solved
+  /// @param known       records of cases from an earlier run of the same check: not solved
   /// again
   /// @note Collective: the solutions are shared among the ranks.
   /// @throws InputError      files or a scene that cannot be used

@@ -23,7 +23,7 @@ namespace plumbline::check
   /// @throws InputError  several series of levels, less than two levels with files
   LevelFiles find_level_files(const scene::Scene &scene, const Input &input);
 
-  /// All that records of a series depend on; empty: a file of it cannot be read again.
+  /// All that the records of a series depend on; empty: one of its files cannot be read again.
   std::string subject_of(const LevelFiles &files);
 
   /// What is found of the weights of each level, and what the errors of the solutions by them say
@@ -38,7 +38,7 @@ namespace plumbline::check
   };
 
   /// The study of these levels by find() or find_in_space(), one after the other; those before an
-  /// interrupt. Solutions whose records an earlier one has left are not made again.
+  /// interrupt. Solutions whose records an earlier run has left are not computed again.
   /// @param references  as of find(), whose errors it throws
   Series find_series(const LevelFiles &files, const method::Methods &references,
                      const study::RunControl &control);

@@ -193,11 +193,11 @@ namespace plumbline::driver
       const std::string given = "--jobs = " + std::to_string(options.n_jobs);
       if (const auto n_ranks = base::Communicator::all().n_ranks(); n_ranks > 1)
         throw InputError(given + " on " + std::to_string(n_ranks) +
-                         " ranks: ranks share the work of each method; use either of them");
+                         " ranks: ranks share the work of each method; use one or the other");
       if (!task.goes_on)
         throw InputError(given + ": each method is compared with its own finest level (Study/"
                                  "decisive error), for which one process keeps all solutions; "
-                                 "leave out --jobs, or give another error");
+                                 "leave out --jobs, or choose another error");
     }
 
     /// What a worker does: tasks whose numbers come from standard input.

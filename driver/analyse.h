@@ -36,7 +36,7 @@ namespace plumbline::driver
 
   /// The methods that a scene names for an analysis, after all checks that come before the first
   /// record.
-  /// @param n_jobs  processes side by side; 0: its memory is checked already
+  /// @param n_jobs  processes at the same time; 0: the memory has already been checked
   method::Methods check_methods(const study::Analysis &analysis, const scene::Scene &scene,
                                 const method::Methods &available, unsigned int n_levels,
                                 unsigned int n_jobs = 1);

@@ -64,7 +64,7 @@ namespace plumbline::driver
          report::dispersion_view, false, true},
         {"crack", "Dynamic fracture of a notched strip: tip, energies, contour plots",
          "Expected/crack fails", crack, report::crack_view, true},
-        {"grow", "Fracture bond by bond, quasi-static or in motion: load, energies, contour plots",
+        {"grow", "Fracture bond by bond, quasi-static or dynamic: load, energies, contour plots",
          "Expected/growth, Expected/growth ends or the energy balance fails", growth,
          report::growth_view, true},
         {"strip", "Stationary crack: tip energy by meshfree and Galerkin methods",

@@ -15,10 +15,10 @@ namespace plumbline::driver
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,
   /// solutions; outliers among bonds and nodes; what was done to all weights.
-  /// A series goes on where it was interrupted or killed, from check.jsonl.
+  /// A series resumes from check.jsonl after it was interrupted or killed.
   /// Print what is found, and write report.html with maps, nodes.csv, outliers.csv, cells.vtu and
   /// check.json; of a series of files levels.csv, a page for each level, and that of the study. In
-  /// space without maps, cells.vtu, matrix and solutions.
+  /// three dimensions there are no maps, no cells.vtu, and no checks of matrix and solutions.
   /// @return exit code: 0, or 1: a requirement that does not hold, an outlier, a
   ///         cause found, a matrix that is not positive definite, or errors of a series that stall
   ///         where ac is required

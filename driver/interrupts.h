@@ -15,7 +15,7 @@ namespace plumbline::driver
                             "\ninterrupted: ends after the current solve or time step, which may "
                             "take a while, and writes the results so far; Ctrl-C again: ends now, "
                             "finished results are kept\n");
-  /// As this notice where worker processes do the work (see driver/jobs.h).
+  /// The notice if worker processes do the work (see driver/jobs.h).
   constexpr auto end_of_workers =
       "\ninterrupted: ending the worker processes, then writing the results of finished tasks; "
       "press Ctrl-C again to stop at once\n";

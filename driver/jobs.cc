@@ -45,7 +45,7 @@ namespace plumbline::driver
     {
       exit_code = bad.exit_code > 0 ? bad.exit_code : 3;
       std::cerr << "plumbline: a worker process (--jobs) " << bad.how << "; if a " << task
-                << " is missing, the same command tries it again\n";
+                << " is missing, run the same command again\n";
     }
     return exit_code;
   }

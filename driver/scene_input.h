@@ -18,10 +18,10 @@ namespace plumbline::driver
     bool quiet = false, json = false;
     bool pdf = false; ///< charts as PDF, besides SVG
     // worker processes, see driver/jobs.h
-    unsigned int n_jobs = 1;            ///< that share the work; of each rank in `sample`
-    unsigned int n_threads = 0;         ///< of each process; 0: the machine's, shared among them
-    bool is_worker = false;             ///< this is one
-    std::vector<std::string> arguments; ///< of the command, which workers are given again
+    unsigned int n_jobs = 1;            ///< processes that share the work; in `sample` per rank
+    unsigned int n_threads = 0;         ///< of each process; 0: all cores, divided among them
+    bool is_worker = false;             ///< this process is a worker
+    std::vector<std::string> arguments; ///< of the command, passed on to the workers
   };
 
   /// The scene with its overrides, and names of methods as the methods write them.

@@ -84,7 +84,7 @@ namespace plumbline::python
         rows[k].kernel_point = points[k];
         if (points[k].square() == 0)
           throw InputError("points[" + std::to_string(k) +
-                           "] is 0, the place of node i itself, where kernels may be infinite; "
+                           "] is 0, the position of node i itself, where kernels may be infinite; "
                            "give a point of the neighbour's cell, relative to node i");
       }
       return rows;

@@ -273,7 +273,7 @@ namespace plumbline::python
   {
     const auto boxes = to_cuboids(given, "boxes");
     if (boxes.size() != 1)
-      throw InputError("boxes holds " + std::to_string(boxes.size()) + " boxes; give one");
+      throw InputError("boxes contains " + std::to_string(boxes.size()) + " boxes; give one");
     return boxes.front();
   }
 

@@ -6,9 +6,9 @@
 
 namespace plumbline::algebra
 {
-  /// A sparse matrix for many products, by blocks of 2 or 3 components: one column index for each
-  /// pair of nodes. Bonds that pull along their own direction alone have blocks -g⊗g off the
-  /// diagonal, of which g is all that is kept: 28 bytes a bond in space instead of 108. Their
+  /// A sparse matrix for many products, in blocks of 2 or 3 components: one column index for each
+  /// pair of nodes. Bonds whose force acts along the bond have off-diagonal blocks -g⊗g, of which
+  /// only g is stored: 28 bytes per bond in three dimensions instead of 108. Their
   /// products differ from those of the matrix by rounding, 1e-15 of Σ |a_ij x_j|.
   class BlockRows
   {
@@ -22,11 +22,11 @@ namespace plumbline::algebra
     std::size_t n_bonds() const { return column_.size(); } ///< blocks off the diagonal
     bool are_directed() const { return are_directed_; }    ///< blocks are -g⊗g
 
-    /// y = A x of the nodes [from, to).
+    /// y = A x for the rows of the nodes [from, to).
     void vmult(const double *x, double *y, std::size_t from, std::size_t to) const;
 
   private:
-    bool take_directions(); ///< of all blocks, if they have them
+    bool take_directions(); ///< @return all blocks are -g⊗g
 
     unsigned int n_components_ = 0;
     bool are_directed_ = false;

@@ -26,7 +26,7 @@ namespace plumbline::algebra
     dealii::IndexSet own() const;
   };
 
-  /// Rows of a `CsrMatrix` that somebody else keeps.
+  /// View of rows of a `CsrMatrix` that is stored elsewhere.
   struct CsrView
   {
     dealii::ArrayView<const std::size_t> start; ///< shape (n_rows + 1), or empty; from 0
@@ -41,10 +41,10 @@ namespace plumbline::algebra
     std::size_t n_rows() const { return start.size() == 0 ? 0 : start.size() - 1; }
   };
 
-  /// This rank's rows of the sum of what all ranks give: each sends what it has of the rows of
-  /// others to their owners. Those of others are empty in the result.
+  /// This rank's rows of the sum of the rows on all ranks: each rank sends its parts of the rows of
+  /// other ranks to their owners. Rows of other ranks are empty in the result.
   /// @param rows  any rows, shape (n, any number of columns); < 2^31 entries on each rank
-  /// @return      of the same shape; the same on any number of ranks but for the order of sums
+  /// @return      same shape; independent of the number of ranks up to the order of sums
   /// @note Collective.
   CsrMatrix sum_own_rows(const CsrMatrix &rows, const OwnedRanges &ranges);
 
@@ -54,7 +54,7 @@ namespace plumbline::algebra
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// The sum of what all ranks give. A reference is kept if none gives rows of another, as after
+    /// The sum of the rows on all ranks. Keeps a reference if no rank has rows of another, as after
     /// `sum_own_rows`; else this rank's rows are summed here, a copy.
     /// @param rows  any rows, shape (n, n), < 2^31 entries
     /// @note Collective.

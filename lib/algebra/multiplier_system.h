@@ -8,24 +8,24 @@
 namespace plumbline::algebra
 {
   /// A stencil on a box of nodes whose components are strongly coupled, such as that of a nearly
-  /// incompressible solid. A preconditioner of each component alone does not see that deformations
-  /// without a change of volume are soft: its iterations grow as √(λ/μ), and with n. Here all
-  /// components are inverted together. The box is part of a periodic one, whose operator C is
+  /// incompressible solid. A preconditioner for each component alone ignores that deformations
+  /// without a change of volume are soft: iterations grow as √(λ/μ), and with n. Here all
+  /// components are inverted together. The box is embedded in a periodic one, whose operator C is
   /// inverted exactly, mode by mode. Forces λ on the layer of constrained nodes around the box make
   /// the displacements there vanish,
   ///   u = C⁻¹ (f + λ) + c,   u = 0 on the layer,   Σ (f + λ) = 0,
-  /// c constants, which C does not see. That is Xλ = -C⁻¹f on the layer, X = C⁻¹ restricted to it,
-  /// by conjugate gradients on λ whose sum is given. The layer is the union of three slabs, one
+  /// with constants c, the kernel of C. Up to c, Xλ = -C⁻¹f on the layer, X = C⁻¹ restricted to it,
+  /// solved by conjugate gradients for λ with given sum. The layer is the union of three slabs, one
   /// across each axis; on a slab alone X is block circulant, so that it is inverted exactly, mode
-  /// by mode along the slab. The sum of these three inverses preconditions: eigenvalues are at most
-  /// 3, the number of slabs that a node is in. A step takes a Fourier transform of each component
-  /// there and back; one of StencilSystem takes sine transforms as well. Measured, linear
+  /// by mode along the slab. The sum of these is the preconditioner: eigenvalues are at most
+  /// 3, the number of slabs that a node is in. A step takes a Fourier transform per component
+  /// and its inverse; one of StencilSystem takes sine transforms as well. Measured, linear
   /// peridynamic solids in space, m = 3, n = 16, 32, 64, to 1e-12 of the residual: 26 to 29
   /// iterations at ν = .2, 43 to 48 at .495 and 58 to 85 at .4999; StencilSystem 19 to 21, 103 to
-  /// 144 and more than 1000. Memory at n = 64: 155 bytes an unknown (83). Source: constraints by
+  /// 144 and more than 1000. Memory at n = 64: 155 bytes per unknown (83). Source: constraints by
   /// multipliers and a coarse problem of constants, Farhat & Roux 1991, doi:10.1002/nme.1620320604;
   /// the sum of inverses on overlapping parts is additive Schwarz, Smith, Bjørstad & Gropp 1996,
-  /// Domain Decomposition. Limits: the box whole; even stencils of at most three components that
+  /// Domain Decomposition. Limits: one whole box; even stencils of at most three components that
   /// couple two components by entries that are odd along the axes of both, as isotropic solids on
   /// lattices do; one rank.
   class MultiplierSystem : public LinearSystem
@@ -38,7 +38,7 @@ namespace plumbline::algebra
 
     void vmult(Vector &y, const Vector &x) const override;
 
-    /// Ends where the residual, computed anew, is small enough, or as small as rounding lets it be:
+    /// Stops when the recomputed residual is below the tolerance, or as small as rounding permits:
     /// ε ‖A‖ ‖x‖.
     LinearSolve solve(Vector &x, const Vector &b, const Stopping &stopping) const override;
 
@@ -47,19 +47,19 @@ namespace plumbline::algebra
     std::unique_ptr<Parts> parts_;
   };
 
-  /// Memory of a MultiplierSystem [bytes]; 0 where it would take so much that it is not chosen: its
+  /// Memory of a MultiplierSystem [bytes]; 0 if it would need so much that it is not chosen: its
   /// matrices grow as n² reach².
   double multiplier_bytes(unsigned int n_blocks, const std::array<int, 3> &n,
                           const std::array<int, 3> &reaches);
 
-  /// Whether a MultiplierSystem can have the stencil, see its limits.
+  /// Whether a MultiplierSystem can handle the stencil, see its limits.
   bool has_mirror_images(const Stencil &stencil);
 
-  /// Stiffness along a wave over that across it, of long waves along an axis: (λ + 2μ) / μ. 1 for
+  /// Ratio of longitudinal to transverse stiffness of long waves along an axis: (λ + 2μ) / μ. 1 for
   /// one component.
   double coupling(const Stencil &stencil);
 
-  /// The solver for a stencil on nodes in space that promises the least time: multipliers where
+  /// The solver for a stencil on nodes in space with the least expected time: multipliers if
   /// components are coupled strongly, else StencilSystem.
   std::unique_ptr<LinearSystem>
   make_box_system(const Stencil &stencil, const geometry::BoxNodes &nodes, OperatorBackend backend);

@@ -11,8 +11,8 @@
 namespace plumbline::algebra
 {
   /// A box of n nodes in the corner of a periodic box of N >= n + reach nodes along each axis of
-  /// which the stencil has a reach. The nodes around it are the layer. There the stencil is block
-  /// circulant; restricted to the box it is the stencil on the box, as no node of the box sees its
+  /// which the stencil has a reach. The other nodes are the layer. On the periodic box it is block
+  /// circulant; restricted to the box it is the stencil there, as no node of the box reaches its
   /// own images. Fields have shape (n_blocks, N[2], N[1], N[0]); values on the layer are numbered
   /// component by component, x fastest.
   class PeriodicBox
@@ -22,7 +22,7 @@ namespace plumbline::algebra
     /// @throws NumericalError  a block of the symbol is not positive definite
     PeriodicBox(const Stencil &stencil, const std::array<int, 3> &n);
 
-    /// N: lengths whose transforms are fast.
+    /// N: lengths with fast transforms.
     static std::array<int, 3> periods(const std::array<int, 3> &reaches,
                                       const std::array<int, 3> &n);
 
@@ -47,11 +47,11 @@ namespace plumbline::algebra
     /// symbol is 0, zero. Lower triangle, row by row.
     const double *inverse(std::array<int, 3> k) const;
 
-    /// Make the field zero, and then what is given.
+    /// Set the field to zero, then to the given values on the box.
     void set_box(const double *values);   ///< shape (n_blocks, n[2], n[1], n[0])
     void add_layer(const double *values); ///< to the field
 
-    /// The field by the operator's inverse on fields without constants; constants become zero.
+    /// Apply the operator's inverse to the field without its mean; constants become zero.
     void invert();
 
     void get_box(double *values) const;

@@ -12,7 +12,7 @@ namespace plumbline::algebra
   class SlabInverse
   {
   public:
-    /// Constants, which C does not see, are as stiff as the box's longest wave.
+    /// Constants, the kernel of C, get the stiffness of the box's longest wave.
     /// @pre the box has a layer across the axis
     SlabInverse(const PeriodicBox &box, unsigned int axis);
 
@@ -20,7 +20,7 @@ namespace plumbline::algebra
     static double bytes(unsigned int n_blocks, const std::array<int, 3> &n,
                         const std::array<int, 3> &period, unsigned int axis);
 
-    /// result += the inverse of what values hold on the slab; both on the layer.
+    /// result += the inverse applied to the values on the slab; both arrays are on the layer.
     void add(const PeriodicBox &box, const double *values, double *result) const;
 
   private:

@@ -66,7 +66,7 @@ namespace plumbline::analysis
       const bool has_limit = !scheme.is_runge_kutta && (!scheme.is_implicit() || scheme.theta < .5);
       if (scheme.is_runge_kutta && motion.changes)
         refuse("the scheme ", scheme.name,
-               " chooses its own steps, between which bonds cannot break; take velocity Verlet");
+               " chooses its own steps, and bonds cannot break between them; use velocity Verlet");
       if (stepping.critical_step && !stepping.shows_blow_up && has_limit &&
           stepping.step > *stepping.critical_step)
         refuse("time step = ", stepping.step, " is longer than the critical step ",

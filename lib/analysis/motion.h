@@ -25,8 +25,8 @@ namespace plumbline::analysis
     /// ∂a/∂u v, symmetric; implicit schemes and critical steps need it.
     std::function<void(const Vector &u, const Vector &v, Vector &out)> tangent = {};
     double damping = 0; ///< η >= 0 [1/time]
-    /// After each step, and its observer: whether a has changed at this state, as bonds break for
-    /// good; it is evaluated anew then. Empty: a depends on u and t alone.
+    /// Called after each step and its observer: whether a has changed at this state because bonds
+    /// broke; a is then evaluated again. Empty: a depends on u and t alone.
     std::function<bool(const State &)> changes = {};
     /// That have a part of the unknowns each: n is this one's, and functions are collective.
     base::Communicator ranks = base::Communicator::alone();

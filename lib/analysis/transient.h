@@ -62,7 +62,7 @@ namespace plumbline::analysis
     /// After each step. @return whether this one was kept
     bool observe(const State &state);
 
-    /// The forces have changed at the last state observed, as bonds broke.
+    /// Bonds broke, so that the forces changed at the last state observed.
     void change(const State &state) { power_ = transient_.power(state); }
 
     const std::vector<Energies> &samples() const { return samples_; }

@@ -97,7 +97,7 @@ namespace plumbline::base
                                     environment.data());
       posix_spawn_file_actions_destroy(&actions);
       if (error != 0)
-        throw NumericalError(std::string("no process can be begun: ") + std::strerror(error));
+        throw NumericalError(std::string("no process can be started: ") + std::strerror(error));
       return process;
     }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-// Processes that take numbers of tasks from a pipe, so that none waits while there is work, and one
-// that ends badly takes its own task with it alone.
+// Processes that read task numbers from a pipe, so that none waits while there is work, and one
+// that fails loses only its own task.
 namespace plumbline::base
 {
   /// Of this process: the next number, until there are no more.
@@ -15,15 +15,15 @@ namespace plumbline::base
   /// End with the process that began this one, however it ends.
   void end_with_parent();
 
-  /// How a process ended whose task is not finished.
+  /// How a process ended that had not finished its task.
   struct BadEnding
   {
     std::string how;   ///< e.g. "was ended by a signal (Killed)"
     int exit_code = 0; ///< 0: a signal ended it
   };
 
-  /// Run this command with other arguments in n processes that take tasks from standard input. In
-  /// place of one that a signal ends, another begins; an exit code other than 0 ends all of them,
+  /// Run this command with other arguments in n processes that read tasks from standard input. If
+  /// a signal ends one, another replaces it; an exit code other than 0 ends all of them,
   /// since the others would end in the same way.
   /// @param on_wait  called ten times a second with the number of finished tasks; false: end them
   /// now

@@ -15,11 +15,11 @@ namespace plumbline::io
     /// Nothing is written yet.
     explicit JsonLines(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// The file that is there is continued, by several processes at the same time.
+    /// Append to the existing file, which several processes do at the same time.
     void join() { is_begun_ = true; }
 
-    /// Whole lines. The first ones replace a file that is there, at once, unless it was joined. A
-    /// line that a kill has cut off at the file's end is removed.
+    /// Append whole lines. The first call replaces an existing file, unless it was joined. A
+    /// last line that a kill has truncated is removed.
     /// @throws InputError  the file cannot be written
     void append(const std::string &lines);
 

@@ -27,7 +27,7 @@ namespace plumbline::io
     /// @throws InputError  the file cannot be written
     void append(const study::StudyResults &made);
 
-    /// This process continues the file together with others, of which one has begun it.
+    /// This process appends to the file together with others, one of which has created it.
     void join();
 
     /// The study is complete, and other files hold everything.

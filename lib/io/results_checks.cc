@@ -98,7 +98,7 @@ namespace plumbline::io
         for (const unsigned int of_axis : grid.n)
         {
           expect(of_axis > 0 && of_axis <= most_blocks, place,
-                 "has n_x, n_y or n_z outside of [1, " + std::to_string(most_blocks) + "]");
+                 "has n_x, n_y or n_z outside [1, " + std::to_string(most_blocks) + "]");
           n *= of_axis;
         }
         expect(grid.values.size() == n, place + ".values",

@@ -15,7 +15,7 @@ namespace plumbline::report
   {
   public:
     /// @param lower, upper  corners of what each panel shows
-    /// @param axes          names of the coordinates across and up
+    /// @param axes          names of the horizontal and the vertical coordinate
     SmallMultiples(std::size_t n, std::size_t n_columns, const std::array<double, 2> &lower,
                    const std::array<double, 2> &upper, std::string axes = "xy");
 

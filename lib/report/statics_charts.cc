@@ -338,8 +338,8 @@ namespace plumbline::report
              std::string("Mean of u (of |u| for vectors) in each block of cells at "
                          "the finest level") +
                  (is_line ? "." : ". White: outside the domain.") +
-                 (is_in_space ? " In the three layers of cells through the middle of the body, "
-                                "and as surfaces of equal u."
+                 (is_in_space ? " Shown in three layers of cells through the middle of the body "
+                                "and as isosurfaces of u."
                               : ""),
              {},
              std::move(pictures)});

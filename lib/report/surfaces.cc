@@ -144,7 +144,7 @@ namespace plumbline::report
 
   std::string surfaces_title(const SolutionGrid &grid)
   {
-    return place(grid) + ": surfaces of equal " + symbol(grid) + " computed with " + grid.method;
+    return place(grid) + ": isosurfaces of " + symbol(grid) + " computed with " + grid.method;
   }
 
   std::string surfaces_script(const SolutionGrid &grid, const std::string &file)

@@ -15,7 +15,7 @@ namespace plumbline::report
   /// round-off, or no eight cells lie together in the body
   std::string surfaces_script(const study::SolutionGrid &grid, const std::string &file);
 
-  /// "u, m = 3, h = 0.05: surfaces of equal u computed with Q1".
+  /// "u, m = 3, h = 0.05: isosurfaces of u computed with Q1".
   std::string surfaces_title(const study::SolutionGrid &grid);
 
   /// A row for each cell of the grid inside the domain, at its centre.

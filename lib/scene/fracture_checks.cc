@@ -17,7 +17,7 @@ namespace plumbline::scene
       const ProblemSection &problem = scene.problem;
       const TimeSection &time = scene.time;
       const std::string given = "Time/final time = " + short_number(time.final_time) +
-                                " with Fracture/toughness (bonds that break in motion) needs ";
+                                " with Fracture/toughness (dynamic fracture) needs ";
       const auto needs = [&](bool is_good, const std::string &what)
       {
         if (!is_good)
@@ -25,24 +25,24 @@ namespace plumbline::scene
       };
       needs(!domain.is_in_space(), "Domain/dimension = 2");
       needs(fracture.stretch == Stretch::linear && !fracture.is_corrected(),
-            "Fracture/stretch = linear and Fracture/surface terms = uncorrected: other forces have "
-            "no energy to be balanced");
+            "Fracture/stretch = linear and Fracture/surface terms = uncorrected: other forces do "
+            "not derive from an energy");
       needs(domain.is_floating || !domain.fixed.empty(),
-            "Domain/fixed, the grips; write none if nothing holds or moves the body but "
+            "Domain/fixed, the grips; write none if the body has no grips and is driven only by "
             "Problem/load and Time/initial velocity");
       needs(domain.is_floating != problem.constraint.has_value(),
             domain.is_floating ? "Problem/constraint empty, because Domain/fixed = none: there are "
-                                 "no grips that it could move"
+                                 "no grips to which it applies"
                                : "Problem/constraint, the displacement of the grips in x, y and t");
       needs(problem.solutions.empty() && problem.loads.size() <= 1,
             "Problem/solution empty and no more than one Problem/load, the force per volume");
       needs(!problem.loads.empty() || problem.constraint.has_value() ||
                 !time.initial_velocity.empty(),
-            "something that moves the body: Problem/constraint, Problem/load or Time/initial "
+            "a cause of motion: Problem/constraint, Problem/load or Time/initial "
             "velocity");
       needs(!scene.sampling.is_there(), "Sampling/rule = none: samples are quasi-static");
       needs(time.initial_displacement.empty(),
-            "Time/initial displacement empty: the body is unstrained at first");
+            "Time/initial displacement empty: the body is initially unstrained");
       needs(time.schemes.size() == 1, "one of Time/schemes");
     }
   } // namespace

@@ -82,7 +82,7 @@ namespace plumbline::scene
               {"Fracture/max load", is_still, still},
               {"Fracture/min reaction", is_still, still},
               {"Fracture/checkpoint interval", is_still, still},
-              {"Expected/growth", is_still, still + "; in motion there is Expected/values"},
+              {"Expected/growth", is_still, still + "; for dynamic fracture use Expected/values"},
               {"Expected/growth ends", is_still, still},
               {"Expected/crack", is_moving || scene.crack.is_there(),
                "Crack/notch, or Fracture/toughness with Time/final time"}};

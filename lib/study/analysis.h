@@ -177,13 +177,13 @@ namespace plumbline::study
     std::function<void(const StudyResults &)> on_made = {};
     /// Records that need not be made again, with what was found besides them, and provenance.
     StudyResults earlier = {};
-    /// Has tasks made by other processes and returns all that is finished then, as `earlier`; what
-    /// is missing is not made here, and the study is incomplete. Empty: there are no others.
+    /// Lets other processes do tasks and returns all that is finished then, as `earlier`; what
+    /// is missing is not computed here, and the study is incomplete. Empty: no other processes.
     /// @param head  results without records and statements
     std::function<StudyResults(const StudyResults &head, const std::vector<std::uint64_t> &tasks)>
         share = {};
-    bool is_shared_by_level = false; ///< once for each level, as with a budget; else once
-    /// Of such a process, which makes only these: its next task, until there are no more.
+    bool is_shared_by_level = false; ///< share() once per level, as with a budget; else once
+    /// In such a process, which does only these tasks: the next one, until there are no more.
     std::function<bool(std::uint64_t &task)> next_task = {};
     base::Communicator ranks = base::Communicator::alone(); ///< that run this study together
   };

@@ -73,7 +73,7 @@ namespace plumbline::study
     void add(std::size_t block, const double *u, unsigned int n_components);
 
     /// NaN where a block has no place.
-    /// @param ranks  that each added places of their own
+    /// @param ranks  each of which added its own places
     std::vector<double> means(const base::Communicator &ranks = base::Communicator::alone()) const;
 
   private:

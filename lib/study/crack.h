@@ -134,7 +134,7 @@ namespace plumbline::study
 
   /// Speed of Rayleigh waves over that of shear waves: the root c of
   /// x³ - 8x² + (24 - 16k) x - 16 (1 - k) = 0, x = c².
-  /// @param k  μ/(λ + 2μ); 1/3 where λ = μ, where the ratio is .9194
+  /// @param k  μ/(λ + 2μ); 1/3 if λ = μ, which gives the ratio .9194
   double rayleigh_ratio(double k = 1. / 3);
 
   std::vector<std::string> warnings_of_strain(double strain);

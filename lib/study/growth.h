@@ -32,7 +32,7 @@ namespace plumbline::study
     std::array<dealii::Point<2>, 2> ends;
     std::size_t event = 0;
     bool is_joined = false; ///< to the notch, by others in the end
-    std::size_t joined = 0; ///< the event by which it is, where it is
+    std::size_t joined = 0; ///< the event after which it is joined, if it is
   };
 
   /// Where a crack went. It is where next neighbours have parted: sides of cells that hang together

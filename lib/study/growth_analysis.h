@@ -37,7 +37,7 @@ namespace plumbline::study
   /// Quasi-static fracture of a scene (section Fracture) at its one level; of records see
   /// growth_record. Besides, scalars and texts say what was solved, and how. With Time/final time
   /// the body is in motion, see breaking_record.
-  /// @param write_motion  called at each frame of a motion; empty: there are none
+  /// @param write_motion  called for each frame of a motion; empty: no frames are written
   Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write,
                            const WriteStrip &write_motion = {});
 } // namespace plumbline::study

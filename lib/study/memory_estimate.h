@@ -25,7 +25,7 @@ namespace plumbline::study
   /// What check_memory() and check_memory_of_motion() compare with the memory that there is, by
   /// method, series and level.
   /// @param n_levels  the first so many of each series; 0: all
-  /// @param n_ranks   that share what methods distribute: slabs in space, rows of meshes
+  /// @param n_ranks   that share distributed data: slabs in space, rows of meshes
   std::vector<MemoryOfLevel> estimate_memory(const scene::Scene &scene, const Methods &methods,
                                              unsigned int n_levels, unsigned int n_ranks);
 } // namespace plumbline::study

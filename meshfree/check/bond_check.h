@@ -31,7 +31,7 @@ namespace plumbline::meshfree
   {
     static constexpr double tolerance = 1e-8; ///< for moments to count as exact
 
-    std::vector<MomentDefect> defects; ///< of degree 1 to 4, or 2 where no more is asked for
+    std::vector<MomentDefect> defects; ///< of degrees 1 to `highest`, see check_moments
     /// Polynomials up to this degree are mapped as by the nonlocal operator.
     int exact_degree = 0;
     /// Mean over the families of the ratio of Σ w tr C |ξ|² to its exact value.

@@ -299,7 +299,7 @@ namespace plumbline::meshfree
           row.kernel_point = place<dim>(csv, "q");
         if (row.kernel_point && row.kernel_point->square() == 0)
           csv.fail(std::string("the kernel point ") + (dim == 2 ? "(qx, qy)" : "(qx, qy, qz)") +
-                   " is 0, the place of node i itself, where kernels may be "
+                   " is 0, the position of node i itself, where kernels may be "
                    "infinite; give a point of the neighbour's cell, relative to node i");
         rows.push_back(row);
       }

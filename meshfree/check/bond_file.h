@@ -100,8 +100,8 @@ namespace plumbline::meshfree
   };
 
   /// Bonds from a CSV file with the columns i and j (ids), weight [length^dim] and, if they
-  /// are there, qx, qy and in space qz [length]: where the kernel is taken, relative to node i.
-  /// Where a row leaves them empty, or the file has no such columns, it is taken at node j.
+  /// are there, qx, qy and in space qz [length]: where the kernel is evaluated, relative to node i.
+  /// If a row leaves them empty, or the file has no such columns, it is evaluated at node j.
   /// @param cells  of the nodes, where source is the index into them
   /// @throws InputError  file not readable, missing columns, not a finite number, unknown ids, a
   /// bond of a node with itself or given twice, a kernel point at 0, a free node without bonds (but

@@ -47,12 +47,12 @@ namespace plumbline::meshfree
     std::vector<Usual> usual(const std::vector<double> &values, double floor) const;
 
   private:
-    /// What symmetry leaves of a bond.
+    /// The invariants of a bond under symmetry.
     struct Shape
     {
       double length = 0; ///< [length]
       double side =
-          0; ///< that turns by 90° and reflections leave as it is, among bonds of one length
+          0; ///< invariant under rotations by 90° and reflections, for bonds of one length
     };
 
     template <int dim>

@@ -17,9 +17,8 @@ namespace plumbline::meshfree
     const geometry::NodeCells<dim> &cells; ///< of all nodes; may have no pieces in space
     const std::vector<double> &volumes;    ///< of all nodes, numbered as the cells
     Precision precision = {};
-    Point<dim> origin = {}; ///< that the places of the cells count from, see GivenNodes
-    double lattice =
-        0; ///< spacing, where the nodes are some of a lattice of cubes; else 0 [length]
+    Point<dim> origin = {}; ///< to which positions of the cells are relative, see GivenNodes
+    double lattice = 0;     ///< spacing, if the nodes lie on a lattice of cubes; else 0 [length]
   };
 
   template <int dim>
@@ -66,7 +65,7 @@ namespace plumbline::meshfree
 
   /// Of all rules and counterexamples the one that most weights and kernel points agree with, nine
   /// of ten weights at least, relative to the neighbours' volumes and the sizes of their cells.
-  /// Bonds as long as the horizon that one of both lacks do not count. Cost: .1 ms a node in the
+  /// Bonds as long as the horizon that only one of them has do not count. Cost: .1 ms a node in the
   /// plane.
   template <int dim>
   std::optional<Recognised<dim>> recognise(const GivenBonds<dim> &given);

@@ -61,7 +61,7 @@ namespace plumbline::meshfree
     {
       const std::string q = dim == 2 ? "(qx, qy)" : "(qx, qy, qz)";
       return {{"kernel at midpoints",
-               "the kernel is taken at the midpoints of the bonds, not at the neighbours", .5,
+               "the kernel is evaluated at the midpoints of the bonds, not at the neighbours", .5,
                [](Bond<dim> &bond, std::size_t, std::size_t) { bond.kernel_point *= 2; }},
               {"kernel points reversed",
                "the kernel points " + q +
@@ -69,7 +69,7 @@ namespace plumbline::meshfree
                    "from the neighbour to it",
                -1, [](Bond<dim> &bond, std::size_t, std::size_t) { bond.kernel_point *= -1; }},
               {"kernel points absolute",
-               "the kernel points " + q + " are absolute places, not relative to node i", 1,
+               "the kernel points " + q + " are absolute positions, not relative to node i", 1,
                [&given](Bond<dim> &bond, std::size_t i, std::size_t)
                { bond.kernel_point -= given.origin + given.cells.nodes[i]; }},
               {"kernel points from the neighbour",
@@ -120,8 +120,8 @@ namespace plumbline::meshfree
       return {};
     const std::string q = dim == 2 ? "qx and qy" : "qx, qy and qz";
     Mend<dim> mend{
-        {"kernel at nodes", "the kernel is taken at the nodes, not where " + evidence.rule->rule +
-                                " takes it, at the centroid of ball and cell; give " + q},
+        {"kernel at nodes", "the kernel is evaluated at the nodes; " + evidence.rule->rule +
+                                " evaluates it at the centroid of ball and cell; give " + q},
         [right = evidence.rule->families](std::vector<Family<dim>> &all)
         {
           for (std::size_t i = 0; i < all.size(); ++i)
@@ -148,7 +148,7 @@ namespace plumbline::meshfree
     if (spread_of(sums).median > given.precision.weight)
       return {};
     Mend<dim> mend{{"own volume counted", "the weights of a node add up to the whole ball: its own "
-                                          "volume is counted in, though it has no bond"},
+                                          "volume is included, although it has no bond"},
                    for_each_bond<dim>(
                        [&volumes = given.volumes, ball](Bond<dim> &bond, std::size_t i, std::size_t)
                        { bond.weight *= 1 - volumes[i] / ball; })};
@@ -212,7 +212,7 @@ namespace plumbline::meshfree
         return {{.75 / m, "volume of a ball",
                  "all weights carry the factor 3/(4 m) = " + text(.75 / m) +
                      ", the volume of the horizon in 2D, pi delta^2 h, over that of a ball, 4/3 pi "
-                     "delta^3: a formula for 3D on a plane of nodes"},
+                     "delta^3: a 3D formula used in 2D"},
                 {1.25 / m, "bond constant of 3D",
                  "all weights carry the factor 5/(4 m) = " + text(1.25 / m) +
                      ", the bond constant of 3D, 18 k / (pi delta^4), times h over that of plane "
@@ -223,14 +223,14 @@ namespace plumbline::meshfree
             {4 * m / 3, "area of a disc",
              "all weights carry the factor 4 m/3 = " + text(4 * m / 3) +
                  ", the volume of a ball, 4/3 pi delta^3, over that of the horizon in a plate of "
-                 "thickness h, pi delta^2 h: a formula for 2D on nodes in space",
+                 "thickness h, pi delta^2 h: a 2D formula used in 3D",
              true}};
         const double plane = plane_constant(given.kernel) / node_size(given);
         if (given.kernel.n_components() == 1)
           result.push_back({plane, "kernel constant of 2D",
                             "all weights carry the factor " + text(plane) +
                                 ", the kernel's constant in a plate of thickness h over that of "
-                                "3D: a constant for 2D on nodes in space",
+                                "3D: a 2D constant used in 3D",
                             true});
         else
           for (const auto &[state, ratio] :
@@ -239,7 +239,7 @@ namespace plumbline::meshfree
                               "all weights carry the factor " + text(ratio * plane) +
                                   ", the bond constant of " + state +
                                   " in a plate of thickness h over that of 3D at the same Young's "
-                                  "modulus: a constant for 2D on nodes in space",
+                                  "modulus: a 2D constant used in 3D",
                               true});
         return result;
       }

@@ -36,7 +36,7 @@ namespace plumbline::meshfree
     std::vector<ElasticRange> elastic; ///< empty for scalar kernels
     WeightCheck weights;
     SymmetryCheck symmetry;
-    static constexpr bool has_matrix = dim == 2; ///< in space its factors would be too large
+    static constexpr bool has_matrix = dim == 2; ///< in space its factorisation would be too large
     algebra::MatrixCheck matrix;
     std::string matrix_failure; ///< empty: there is a matrix that can be factorised
     std::string rule; ///< of ours that the weights are, once their list is mended; empty: none
@@ -48,7 +48,7 @@ namespace plumbline::meshfree
   };
 
   /// All but the matrix.
-  /// @param uncut_areas  of the nodes' cells before Ω cuts them [length^dim]
+  /// @param uncut_areas  of the nodes' cells before they are clipped to Ω [length^dim]
   /// @param spacing      of the nodes [length]
   /// @param meant        names of the rules that the weights are meant to be; empty: not known
   template <int dim>

@@ -5,7 +5,7 @@
 namespace plumbline::meshfree
 {
   /// The families of a rule on nodes of a lattice of squares or cubes: one family for all, less
-  /// the bonds to places where no node is.
+  /// the bonds to places without a node.
   template <int dim>
   class LatticeFamilies
   {
@@ -22,7 +22,7 @@ namespace plumbline::meshfree
     using Place = std::array<int, dim>;
 
     Place place(const Point<dim> &x) const;
-    /// Of the node in a place; none: n_nodes.
+    /// The index of the node at a place; n_nodes: there is none.
     std::size_t node_at(const Place &at) const;
 
     const geometry::NodeCells<dim> &cells_;

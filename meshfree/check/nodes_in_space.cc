@@ -27,8 +27,8 @@ namespace plumbline::meshfree
                                      [&](const Point<3> &x) { return is_inside(omega, x); }));
       if (n == 0)
         throw InputError("'" + nodes.file + "': none of the " + std::to_string(nodes.size()) +
-                         " nodes lies in the domain; check units, and give the box of the nodes "
-                         "that are solved for");
+                         " nodes lies in the domain; check the units, and give as domain the box "
+                         "of the free nodes");
       return n;
     }
 

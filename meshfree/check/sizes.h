@@ -18,7 +18,7 @@ namespace plumbline::meshfree
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
 
-  /// The word for what a cell has.
+  /// The word for the measure of a cell.
   template <int dim>
   constexpr const char *measure()
   {

@@ -218,7 +218,7 @@ namespace plumbline::meshfree
                   : ", which is not the scene's kernel but another one: the weights already "
                     "contain a kernel or influence function, and the scene's kernel is applied in "
                     "addition") +
-             "; give volumes as weights, or, if the values are w C, say so by --bonds-are "
+             "; give volumes as weights, or, if the values are w C, choose --bonds-are "
              "stiffness";
     }
   } // namespace

@@ -192,10 +192,10 @@ namespace plumbline::meshfree
                                             {1 / .3048, "feet for m"},
                                             {12, "inches for feet"}}};
     const double ratio = dim == 2 ? std::sqrt(factor) : std::cbrt(factor);
-    const std::string plate = "of a plate " + base::to_text(factor, 4) + " thick";
+    const std::string plate = "for a plate of thickness " + base::to_text(factor, 4);
     if (dim == 3 && std::abs(factor * size - 1) < same)
       return "as areas h^2 in place of volumes h^3, h = " + base::to_text(size, 6);
-    std::string text = dim == 2 ? "as " + plate : "as in other units of length";
+    std::string text = dim == 2 ? "as " + plate : "as if in other units of length";
     for (const Unit &unit : units)
     {
       if (std::abs(ratio / unit.ratio - 1) < same)

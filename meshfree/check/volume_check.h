@@ -12,7 +12,7 @@ namespace plumbline::meshfree
     /// rounding, or the median where it is far outside of their spread.
     double factor = 1;
     std::vector<Outlier<dim>> outliers; ///< Defect::volume, the largest distance first
-    std::vector<double> mended;         ///< as the cells' areas tell, shape (n_nodes) [length^dim]
+    std::vector<double> mended;         ///< from the cells' areas, shape (n_nodes) [length^dim]
   };
 
   /// Holds volumes against the areas of Voronoi cells, cut at the boundary of Ω or not, or against
@@ -26,7 +26,7 @@ namespace plumbline::meshfree
   VolumeCheck<dim> check_volumes(const GivenBonds<dim> &given,
                                  const std::vector<double> &uncut_areas);
 
-  /// Of a factor of volumes: "as ...", the thickness of a plate or other units of length.
-  /// @param size  of a cell in space, whose areas may have been given for volumes [length]
+  /// Interprets a factor of volumes: "as ...", the thickness of a plate or other units of length.
+  /// @param size  of a cell in space, whose area may have been given as its volume [length]
   std::string unit_text(double factor, int dim = 2, double size = 0);
 } // namespace plumbline::meshfree

@@ -76,7 +76,7 @@ namespace plumbline::meshfree
     Work work_;
   };
 
-  /// What is known of a network's nodes and bonds, without a body in equilibrium.
+  /// Data of a network's nodes and bonds, without a quasi-static body.
   template <int dim>
   method::BreakableBody<dim> nodes_and_bonds(std::shared_ptr<const BondNetwork<dim>> network,
                                              const dealii::Point<2> &notch_tip);

@@ -9,14 +9,14 @@ namespace plumbline::meshfree
 {
   /// A bond network in the plane in motion, ρ V ü = -∂E/∂u + V b with the energy E of BondNetwork
   /// and the same volume V of all nodes. For λ = μ, without dilatations, a bond that breaks only
-  /// lowers E, and with it the largest eigenvalue: the critical step of the whole body holds for
+  /// lowers E, and with it the largest eigenvalue: the critical step of the intact body holds for
   /// all time.
   /// Source: prototype microelastic brittle bonds, Silling & Askari 2005,
   /// doi:10.1016/j.compstruc.2004.11.026, with linearised stretch ξ·Δu/|ξ|².
   class NetworkMotion : public method::BreakingMotion
   {
   public:
-    /// @pre  the network has no surface terms, whose forces have no energy
+    /// @pre  the network has no surface terms, whose forces derive from no energy
     explicit NetworkMotion(std::shared_ptr<const BondNetwork<2>> network);
 
     std::size_t size() const override { return 2 * n_free_; }
@@ -36,7 +36,7 @@ namespace plumbline::meshfree
     std::vector<double> displacements(const State &u, const std::vector<double> &g) const override;
 
   private:
-    /// A bond as sums over all of them read it.
+    /// The data of a bond that sums over all bonds use.
     struct Link
     {
       unsigned int from = 0, to = 0;
@@ -51,7 +51,7 @@ namespace plumbline::meshfree
     double energy(const std::vector<double> &all) const;
     /// -∂E/∂u of all nodes, shape (n_nodes, 2), as `all`.
     void forces(const std::vector<double> &all, std::vector<double> &f) const;
-    /// The forces at a state: found once for what is asked of it one after the other.
+    /// The forces at a state, computed once for consecutive calls with the same state.
     const std::vector<double> &forces(const State &u, const std::vector<double> &g) const;
     std::vector<double> with_grips(const State &u, const std::vector<double> &g) const;
 
@@ -60,7 +60,7 @@ namespace plumbline::meshfree
     double volume_ = 0;       ///< of a node, per thickness [length^2]
     std::vector<Link> links_; ///< of whole bonds
     mutable State u_;
-    mutable std::vector<double> g_, forces_; ///< the last forces, and where
+    mutable std::vector<double> g_, forces_; ///< the last forces, and their state
   };
 
   method::MovingBody moving_body(BondNetwork<2> network, const dealii::Point<2> &notch_tip);

@@ -17,7 +17,7 @@ _PUBLIC = {"lattice_weights": "weights", "node_weights": "weights", "node_weight
            "matrix_in_space": "space.matrix", "solve_in_space": "space.solve", "moduli_json": "moduli",
            "moduli_arrays": "moduli_of_weights", "grade_arrays": "grade", "grade_files": "grade",
            "certified_names": "certified_problems", "certify_json": "certify", "study_json": "a study"}
-# former names of arguments, which are taken as well
+# earlier names of arguments, which are still accepted
 _ALIASES = {"check": {"box": "boxes", "meant": "rule"}, "weights": {"box": "boxes"}}
 _HINTS = {("Kernel", "E"): "for Young's modulus E give bulk_modulus = 2/3 E in plane strain, 5/8 E in plane stress",
           ("space.Kernel", "E"): "for Young's modulus E give bulk_modulus = 2/3 E"}

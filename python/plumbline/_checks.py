@@ -88,14 +88,14 @@ class Findings(dict):
     outliers    dicts with node, neighbour, index (of the bond), found, expected, text
     moments     degrees 1 to 4 with worst, median and the defects of all free nodes
     weights, symmetry, volume_factor, volume_defect, n_free, n_ignored_bonds, spacing
-    elastic     of solids least, median and largest of C1111, C1122, C1212, E, nu over the nodes
+    elastic     for solids: least, median and largest value of C1111, C1122, C1212, E, nu over the nodes
     matrix      signs and eigenvalues; None in three dimensions
     body        None, or of a body with free surfaces or cracks a dict as in check.json: families
                 (interior, near surfaces, near cracks), correction, crossing, missing, different;
                 moments, weights, symmetry and matrix are those of the interior then
     """
 
-    _ONCE = {  # keys of former versions of space.check
+    _ONCE = {  # keys of earlier versions of space.check
         "is_ac": lambda self: self["moments"]["second"]["value"] <= 1e-8,
         "first_moments": lambda self: tuple(self["moments"]["degrees"][0]["worst"].values()),
         "second_moments": lambda self: tuple(self["moments"]["second"].values()),

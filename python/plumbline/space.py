@@ -15,7 +15,7 @@ def weights(rule, kernel, h, *, nodes=None, volumes=None, boxes=None, exclude=No
     h       spacing of a lattice; with nodes the side of cubes that fill the box [length]
     nodes   shape (n, 3) [length], free in the box, constrained in a layer at least a horizon wide
     volumes  volumes of the nodes' cells, shape (n,) [length^3]; default: those of their Voronoi cells
-    boxes   the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of them; exclude is taken out of it
+    boxes   the domain, ((x0, y0, z0), (x1, y1, z1)) or a list of them; exclude is removed from it
             (box is its former name)
 
     Returns Weights: w of shape (n_bonds,) [length^3], points and xi of shape (n_bonds, 3) [length],
@@ -58,19 +58,19 @@ def check(nodes, volumes, i, j, w, kernel, *, boxes, points=None, h=None, rule=(
     volumes   of their cells, shape (n,) [length^3]
     i, j, w   bonds: indices of node and neighbour (from 0) and weight [length^3], shape (n_bonds,);
               each pair from both ends
-    kernel    the space.Kernel that the weights are meant for
+    kernel    the space.Kernel for which the weights are intended
     boxes     the domain, one box: ((x0, y0, z0), (x1, y1, z1))
-    points    where the kernel is taken, relative to node i, shape (n_bonds, 3); default: at node j
-    h         the spacing that the nodes are meant to have; default: by their number in the box
-    rule      names of the rules that the weights are meant to be, if that is known
+    points    where the kernel is evaluated, relative to node i, shape (n_bonds, 3); default: at node j
+    h         the intended spacing of the nodes; default: computed from their number in the box
+    rule      names of the rules that the weights are intended to follow, if known
     bonds_are  what w holds: "weights", "stiffness" (C w: force density per length) or
               "force constants" (V_i C w: force per length)
     require   of "ac", "consistent", "symmetric", "m-matrix", "moments=TOL"
     boundary  "constrained": nodes around the box are constrained; "periodic": opposite sides of the
-              box are joined, all nodes lie in it, and bonds across its sides are to the nodes themselves
+              box are identified, all nodes lie in it, and bonds across a side lead to the nodes themselves
 
-    box and meant are former names of boxes and rule. Returns Findings, as plumbline.check does, but
-    "matrix" and "body" are None; print() shows its sentences, where nodes are numbered from 0.
+    box and meant are the earlier names of boxes and rule. Returns Findings, as plumbline.check does, but
+    "matrix" and "body" are None; print() shows its sentences, with nodes numbered from 0.
     """
     return Findings(_core.check_in_space(nodes, volumes, i, j, w, kernel, boxes, points, h or 0., _as_list(rule),
                                          _as_list(require), bonds_are, boundary))

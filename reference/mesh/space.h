@@ -17,8 +17,8 @@ namespace plumbline::reference
     /// @param degree   0 to 4; 0 is discontinuous in any case
     /// @param middles  of continuous quadratic functions, shape (n_cells); empty: sides are
     /// straight
-    /// @param order    of the cells, by which unknowns are numbered and ranks share cells; empty:
-    /// as they are
+    /// @param order    of the cells, for numbering unknowns and sharing cells among ranks; empty:
+    /// the order of the mesh
     /// @throws InputError  a mesh of both triangles and quadrilaterals
     MeshSpace(std::shared_ptr<const geometry::Mesh> mesh, bool is_continuous, unsigned int degree,
               const Middles &middles = {}, std::vector<unsigned int> order = {});

@@ -23,7 +23,7 @@ namespace plumbline::reference
     /// thousands of pairs, whose round-off is random, add up to an entry.
     double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
-    /// What the quadrature that jumps of linear functions always need may err by in a pair, as
+    /// Allowed error per pair of the quadrature that jumps of linear functions always need, as
     /// `tolerance`.
     double of_jumps = 1e-6;
     /// Pairs of faces with all vertices on a lattice of this spacing [length] that are translations

@@ -189,7 +189,7 @@ namespace plumbline::reference
       void note(const FaceRuleUse &use, double change, bool has_jumps)
       {
         const auto &[n_double, n_long, n_quad, n_octuple] = use.n_pairs;
-        const std::string sample = is_of_cubes_ ? "them" : "a sample of them";
+        const std::string sample = is_of_cubes_ ? "all entries" : "a sample of entries";
         diagnostics_.notes.push_back(
             std::string(has_jumps ? "entries of continuous functions" : "entries") +
             " exact to round-off by integrals along lines for " +

@@ -4,7 +4,7 @@
 
 namespace plumbline::reference
 {
-  /// assemble_by_faces() for linear functions on cells without continuity. As distributions, ∇φ is
+  /// assemble_by_faces() for discontinuous piecewise linear functions. As distributions, ∇φ is
   /// a constant g on each cell and a layer n [φ] on its faces, where [φ] is the jump along the
   /// normal n, and the derivatives of g are layers n [g]. With ΔΛ = γ - m₀ δ and Λ = ΔΨ + κ δ, see
   /// FacePotential, and {g} the mean of both sides,
@@ -14,7 +14,7 @@ namespace plumbline::reference
   ///                 + n_G·[g_i] ∬_{F×G} [φ_j](y) h_F(y) Ψ'/r + n_F·[g_j] ∬_{F×G} [φ_i](x) h_G(x)
   ///                 Ψ'/r
   ///                 + n_F·n_G ∬_{F×G} [φ_i](x) [φ_j](y) Λ ),
-  /// where i jumps across F at x, j across G at y, and h_F is the height over F along n_F, because
+  /// where φ_i jumps across F at x, φ_j across G at y, and h_F is the height over F along n_F, as
   /// n_F·∇Ψ(x - y) = -h_F(y) Ψ'/r. Integrals of Ψ are those of continuous functions, exact to
   /// round-off; the others, which JumpPairs gives, are multiplied by jumps of values, so that rows
   /// annihilate linear fields, and are those of continuous functions where sums of shape functions

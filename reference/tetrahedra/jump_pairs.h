@@ -24,10 +24,10 @@ namespace plumbline::reference
   /// ρ² = κ² + τ² along it,
   ///   ∫_G g = Σ κ ∫ (H(r) - H(d)) / (κ² + τ²) dτ,   ∫_G ρ g = Σ m ∫ H(r) dτ,
   /// since (H(r) - H(d)) ρ / ρ² and H have the divergence g and the gradient ρ g in the plane. H =
-  /// Ψ for g = Ψ'/r, and H = -∫_r^1 t γ (t - r)²/2 dt for g = Λ; both vanish beyond the horizon, so
-  /// that nothing depends on where the sphere cuts G. What is left to quadrature is smooth but for
+  /// Ψ for g = Ψ'/r, and H = -∫_r^1 t γ (t - r)²/2 dt for g = Λ; both vanish beyond the horizon;
+  /// the cut of the sphere with G is not needed. The quadrature's integrand is smooth except on
   /// lines where the sphere touches a side of the other face, where three derivatives are
-  /// continuous, and for sides and vertices that both faces have, to which its points crowd.
+  /// continuous, and at sides and vertices that both faces share, where its points are clustered.
   class JumpPairs
   {
   public:
@@ -36,7 +36,7 @@ namespace plumbline::reference
     /// refined until the last change is below it
     JumpPairs(const physics::Kernel<3> &kernel, double tolerance);
 
-    /// Those of G and F are the same to the last bit, transposed. Thread safe.
+    /// Those of (G, F) are the transpose, equal to the last bit. Thread safe.
     JumpIntegrals operator()(const PairFace &f, const PairFace &g) const;
 
   private:
@@ -69,7 +69,7 @@ namespace plumbline::reference
       double slope = 0;               ///< h ∫ Ψ'/r
     };
 
-    /// Integrals over a face of what its points see of another.
+    /// Integrals over a face of the integrals over another.
     struct Sights
     {
       std::array<std::array<double, 3>, 3> values{}; ///< ∬ λ_a λ_b Λ
@@ -90,6 +90,6 @@ namespace plumbline::reference
 
     std::vector<Part> parts_;
     double tolerance_;
-    std::array<std::vector<Rule>, 4> rules_; ///< by vertices shared, finer ones last
+    std::array<std::vector<Rule>, 4> rules_; ///< by number of shared vertices, finer ones last
   };
 } // namespace plumbline::reference

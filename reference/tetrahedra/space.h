@@ -13,7 +13,7 @@ namespace plumbline::reference
   /// Functions on the cells of a mesh.
   struct TetrahedralShapes
   {
-    /// Continuous linear ones, or constants.
+    /// Continuous linear functions, or constants on cells.
     TetrahedralShapes(bool continuous) // NOLINT: the two that need no degree
         : is_continuous(continuous), degree(continuous ? 1 : 0)
     {
@@ -66,7 +66,7 @@ namespace plumbline::reference
     TetrahedralShapes shapes_;
     unsigned int n_each_; ///< unknowns of a vertex or a cell
     std::size_t n_free_ = 0;
-    std::vector<unsigned int> number_; ///< of vertices or cells, free ones first
+    std::vector<unsigned int> number_; ///< number of each vertex or cell, free ones first
     std::vector<dealii::Point<3>> support_;
   };
 

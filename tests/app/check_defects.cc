@@ -202,7 +202,7 @@ TEST(Check, names_what_was_done_to_all_weights)
        [](Bond<2> &b, const Weights &, std::size_t) { b.weight *= .5; }},
       {"all weights carry the factor 3/(4 m) = 0.25, the volume of the horizon in 2D",
        [m](Bond<2> &b, const Weights &, std::size_t) { b.weight *= .75 / m; }},
-      {"the kernel is taken at the midpoints of the bonds",
+      {"the kernel is evaluated at the midpoints of the bonds",
        [](Bond<2> &b, const Weights &, std::size_t) { b.kernel_point *= .5; }},
       {"the kernel points (qx, qy) are reversed",
        [](Bond<2> &b, const Weights &, std::size_t) { b.kernel_point *= -1; }},

@@ -382,32 +382,31 @@ namespace
   /// Of kernel points and volumes.
   std::vector<Wrong> wrong_points()
   {
-    return {
-        {"IPA-AC-R2", "IPA-AC-R2", false, [](Dump &one) { one.has_points = false; },
-         "cause: the kernel is taken at the nodes, not where IPA-AC-R2 takes it, at the centroid "
-         "of ball and cell; give qx, qy and qz"},
-        {"IPA-AC-R2", "IPA-AC-R2", false,
-         each([](Row &row, const Dump &) { row.kernel_point *= .5; }),
-         "cause: the kernel is taken at the midpoints of the bonds"},
-        {"IPA-AC-R2", "IPA-AC-R2", false,
-         each([](Row &row, const Dump &) { row.kernel_point *= -1; }),
-         "cause: the kernel points (qx, qy, qz) are reversed"},
-        {"IPA-AC-R2", "IPA-AC-R2", false,
-         each([](Row &row, const Dump &one)
-              { row.kernel_point += dealii::Tensor<1, 3>(one.places[row.i]); }),
-         "cause: the kernel points (qx, qy, qz) are absolute places"},
-        {"IPA-AC-R2", "IPA-AC-R2", true,
-         [](Dump &one) { one.volumes.assign(one.volumes.size(), h * h); },
-         "cause: the volumes are 5 times the volumes of their cells, as areas h^2 in place of "
-         "volumes h^3, h = 0.2; the weights do not carry that factor"},
-        {"FA", "FA", true,
-         [](Dump &one)
-         {
-           times(1e9)(one);
-           one.volumes.assign(one.volumes.size(), 1e9 * h * h * h);
-         },
-         "cause: the volumes are 1e+09 times the volumes of their cells, as in units of length "
-         "1/1000 of the scene's, mm for m, and all weights carry the same factor"}};
+    return {{"IPA-AC-R2", "IPA-AC-R2", false, [](Dump &one) { one.has_points = false; },
+             "cause: the kernel is evaluated at the nodes; IPA-AC-R2 evaluates it at the centroid "
+             "of ball and cell; give qx, qy and qz"},
+            {"IPA-AC-R2", "IPA-AC-R2", false,
+             each([](Row &row, const Dump &) { row.kernel_point *= .5; }),
+             "cause: the kernel is evaluated at the midpoints of the bonds"},
+            {"IPA-AC-R2", "IPA-AC-R2", false,
+             each([](Row &row, const Dump &) { row.kernel_point *= -1; }),
+             "cause: the kernel points (qx, qy, qz) are reversed"},
+            {"IPA-AC-R2", "IPA-AC-R2", false,
+             each([](Row &row, const Dump &one)
+                  { row.kernel_point += dealii::Tensor<1, 3>(one.places[row.i]); }),
+             "cause: the kernel points (qx, qy, qz) are absolute positions"},
+            {"IPA-AC-R2", "IPA-AC-R2", true,
+             [](Dump &one) { one.volumes.assign(one.volumes.size(), h * h); },
+             "cause: the volumes are 5 times the volumes of their cells, as areas h^2 in place of "
+             "volumes h^3, h = 0.2; the weights do not carry that factor"},
+            {"FA", "FA", true,
+             [](Dump &one)
+             {
+               times(1e9)(one);
+               one.volumes.assign(one.volumes.size(), 1e9 * h * h * h);
+             },
+             "cause: the volumes are 1e+09 times the volumes of their cells, as in units of length "
+             "1/1000 of the scene's, mm for m, and all weights carry the same factor"}};
   }
 
   /// Of factors that all weights carry.
@@ -434,7 +433,7 @@ namespace
             {"IPA-AC-R2", "IPA-AC-R2", false, times(8. / 9 * m),
              "cause: all weights carry the factor 1.778, the kernel's constant in a plate"},
             {"FA", "FA", true, times(ball / 32),
-             "cause: the weights of a node add up to the whole ball: its own volume is counted in"},
+             "cause: the weights of a node add up to the whole ball: its own volume is included"},
             {"OPT", "OPT", true, times(1.1), "cause: all weights carry a common factor of 1.1"},
             {"FA", "LAMMPS", true, [](Dump &) {}, "the partial volumes of LAMMPS are missing at "}};
   }

@@ -150,7 +150,7 @@ TEST(Jobs, tell_once_that_a_worker_has_died_and_finish_what_the_others_can)
   EXPECT_EQ(exit_code_of(command), 3);
   const std::string said = read(err);
   EXPECT_EQ(count(said, "a worker process (--jobs) was ended by a signal (Killed); if a task is "
-                        "missing, the same command tries it again"),
+                        "missing, run the same command again"),
             1u)
       << said;
   EXPECT_EQ(count(said, "interrupted"), 0u) << said;

@@ -86,7 +86,7 @@ namespace plumbline::report
     EXPECT_NEAR(last.area, .5 * 1, 1e-3);   // y up to .75: nothing where there is no body
     for (const std::string key : {"u = 3.25", "u = 4", "u = 4.75"})
       EXPECT_TRUE(holds(script, "title '" + key + "'")) << key;
-    EXPECT_EQ(surfaces_title(l_shape()), "u, m = 3, h = 0.5: surfaces of equal u computed with Q1");
+    EXPECT_EQ(surfaces_title(l_shape()), "u, m = 3, h = 0.5: isosurfaces of u computed with Q1");
   }
 
   TEST(Surfaces, AreNotThereWhereNoneCanBeDrawn)

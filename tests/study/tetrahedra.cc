@@ -167,7 +167,7 @@ TEST(StaticsOnTetrahedra, that_are_moved_are_exact_for_linear_fields)
   EXPECT_LT(record["averages L2 | exact"], 1e-11); // of all parts of cells in cubes
   EXPECT_TRUE(std::any_of(record.notes.begin(), record.notes.end(),
                           [](const std::string &note)
-                          { return note.find("a sample of them") != std::string::npos; }));
+                          { return note.find("a sample of entries") != std::string::npos; }));
 }
 
 TEST(StaticsOnTetrahedra, that_are_moved_far_have_exact_entries)

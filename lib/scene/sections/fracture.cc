@@ -16,7 +16,7 @@ namespace plumbline::scene
         "bond has the mean of G at its two ends (Fracture/bond toughness) and breaks at the "
         "critical stretch s0, s0^2 = pi G / (3 delta (lambda + mu)) for the influence function "
         "1/r, in three dimensions s0^2 = 5 G / (9 k delta) with the bulk modulus k. 'plumbline "
-        "grow' runs the scene, with Time/final time as a body in motion. Empty: no bonds break. "
+        "grow' runs the scene, with Time/final time as dynamic fracture. Empty: no bonds break. "
         "[force/length]");
     keys.add(
         "bond toughness", of_bonds,
