@@ -44,6 +44,9 @@ namespace plumbline::scene
       needs(time.initial_displacement.empty(),
             "Time/initial displacement empty: the body is initially unstrained");
       needs(time.schemes.size() == 1, "one of Time/schemes");
+      needs(time.steps.size() <= 1, "one of Time/steps: it is run once");
+      needs(!time.steps.empty() || time.fractions.size() == 1,
+            "one of Time/critical fractions: it is run once");
     }
   } // namespace
 

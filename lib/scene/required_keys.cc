@@ -23,7 +23,12 @@ namespace plumbline::scene
     struct RequiredKey
     {
       std::string key, meaning;
-      bool is_of_rest = false; ///< with Time/final time it may be left out
+      enum class When
+      {
+        always,
+        at_rest,  ///< with Time/final time it may be left out
+        in_motion ///< only with Time/final time
+      } when = When::always;
     };
 
     struct Requirement
@@ -33,6 +38,8 @@ namespace plumbline::scene
       std::string remedy;
       bool has_density = false; ///< with Time/density the material is not c = beta = 1
     };
+
+    using When = RequiredKey::When;
 
     const std::map<std::string, Requirement> &requirements()
     {
@@ -51,8 +58,9 @@ namespace plumbline::scene
              {"Kernel/limit", "= Navier"},
              {"Material/model", "= LPS"},
              {"Domain/cracks", "the notch"},
-             {"Domain/fixed", "the grips", true},
-             {"Problem/constraint", "the displacement of the grips at load 1", true}},
+             {"Domain/fixed", "the grips", When::at_rest},
+             {"Problem/constraint", "the displacement of the grips at load 1", When::at_rest},
+             {"Time/density", "the mass per volume, of bodies in motion", When::in_motion}},
             "scenes/fracture/plate.prm ('plumbline list scenes') is a scene that has them"}}};
       return all;
     }
@@ -83,7 +91,7 @@ namespace plumbline::scene
       const bool is_moving = !is_nothing(value_of("Time/final time"));
       for (const RequiredKey &one : found->second.keys)
         if (const std::string value = value_of(one.key);
-            is_nothing(value) && !(one.is_of_rest && is_moving))
+            is_nothing(value) && one.when != (is_moving ? When::at_rest : When::in_motion))
           missing.push_back(one.key +
                             (one.meaning[0] == '=' ? " " + one.meaning : " (" + one.meaning + ")"));
       if (found->second.has_density && lacks_material(value_of))

@@ -75,13 +75,17 @@ namespace plumbline::scene
     {
       const bool is_moving = scene.fracture.is_there() && scene.time.is_dynamic(),
                  is_still = !is_moving;
-      const std::string still = "Time/final time = 0: quasi-static fracture";
+      const std::string still = "quasi-static fracture (Time/final time = 0)",
+                        run = "'plumbline run', without Fracture/toughness";
       return {{"Fracture/breaking", is_still, still},
               {"Fracture/ties", is_still, still},
               {"Fracture/solver", is_still, still},
               {"Fracture/max load", is_still, still},
               {"Fracture/min reaction", is_still, still},
               {"Fracture/checkpoint interval", is_still, still},
+              {"Time/a priori bounds", is_still, run},
+              {"Time/mass", is_still, run + ", and a Galerkin method"},
+              {"Reference/method", is_still, run},
               {"Expected/growth", is_still, still + "; for dynamic fracture use Expected/values"},
               {"Expected/growth ends", is_still, still},
               {"Expected/crack", is_moving || scene.crack.is_there(),
