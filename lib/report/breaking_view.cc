@@ -26,7 +26,8 @@ namespace plumbline::report
           {{"advance", "distance from the notch tip to the crack's farthest point [length]"},
            {"angle", "of this line against the direction of the notch [degree]"},
            {"branched", "distance over which the crack has two parts or more [length]"},
-           {"speed", "of the tip, by a line fitted from 1/5 to 4/5 of the advance [length/time]"},
+           {"speed", "of the tip, by a line fitted from 1/5 to 4/5 of the advance, without jumps "
+                     "[length/time]"},
            {"speed / c_R", "relative to the Rayleigh wave speed"},
            {"fastest / c_R",
             "largest mean speed over an advance of four horizons or more without jumps"},
@@ -35,9 +36,14 @@ namespace plumbline::report
            {"first break", "when the first bond broke [time]"},
            {"broken bonds", "without those that the notch cuts"},
            {"apart", "separated cell faces that are not connected to a notch"},
-           {"broken energy", "energy lost with broken bonds [force]"},
+           {"broken energy", "energy dissipated in broken bonds [force]"},
+           {"broken energy / G", "over G times the length of a straight crack that breaks as many "
+                                 "bonds; compare G_h / G"},
+           {"energy gained", "by the body as bonds broke that were stretched where others are "
+                             "compressed [force]"},
            {"energy imbalance", "maximum change of kinetic + bonds + broken + dissipated - work, "
-                                "relative to the largest energy"},
+                                "relative to the largest energy without that of the mean "
+                                "velocity"},
            {"overshoot", "mean of stretch / s0 - 1 when a bond was found broken; of first order in "
                          "the time step"},
            {"s0", "critical stretch [1]"},
@@ -61,7 +67,7 @@ namespace plumbline::report
         text += "; its farthest point is " + rounded(record["advance"]) +
                 " [length] from the notch tip, at " + rounded(record["angle"]) +
                 " degrees to the notch";
-      if (record["speed"] > 0)
+      if (record.has("speed"))
         text += "; its speed is " + rounded(record["speed"]) + " [length/time], " +
                 rounded(record["speed / c_R"]) + " of the Rayleigh wave speed";
       return text + "; the energy balance is off by " + rounded(record["energy imbalance"]) +
@@ -74,7 +80,7 @@ namespace plumbline::report
       return "Model: " + record.text("model") +
              ", with inertia. A bond is linear until its stretch reaches s0, and broken for good "
              "from then on (Silling & Askari 2005). Bonds break between two time steps; the energy "
-             "that is lost with them is found from the energy before and after.";
+             "dissipated in them is found from the energy before and after.";
     }
 
     std::vector<Vertex> line_of(const Curve &curve, const std::string &x, const std::string &y)
@@ -117,14 +123,15 @@ namespace plumbline::report
           {"work", "work"},
           {"kinetic", "kinetic"},
           {"bonds", "bonds"},
-          {"broken", "lost with broken bonds"},
+          {"broken", "dissipated in broken bonds"},
           {"dissipated", "dissipated by damping"}};
       unsigned int style = 0;
       for (const auto &[name, label] : lines)
         if (const std::vector<double> &values = column(samples, name);
-            *std::max_element(values.begin(), values.end()) > 0)
+            std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
           chart.plot.lines.push_back(long_line(label, style++, line_of(samples, "t", name)));
-      fit_y(chart.plot);
+      if (!chart.plot.lines.empty())
+        fit_y(chart.plot);
       return chart;
     }
 
@@ -163,7 +170,8 @@ namespace plumbline::report
     std::vector<DataChart> charts;
     if (!record.curves.at("tip")[0].values.empty())
       charts.push_back(tip_chart(record));
-    charts.push_back(energy_chart(record));
+    if (DataChart energies = energy_chart(record); !energies.plot.lines.empty())
+      charts.push_back(std::move(energies));
     view.galleries = {{"picture", "Results", "", std::move(charts), {moments(record)}}};
     view.tables = {{"samples", table_of(record.curves.at("samples"))},
                    {"breaks", table_of(record.curves.at("breaks"))}};

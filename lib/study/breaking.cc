@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 
 namespace plumbline::study
 {
@@ -23,13 +25,14 @@ namespace plumbline::study
 
   namespace
   {
-    constexpr std::size_t n_numbers = 6, n_heads = 4; // of a sample; of breaks before their bonds
+    constexpr std::size_t n_numbers = 7, n_heads = 4; // of a sample; of breaks before their bonds
 
     Vector to_records(const BreakingHistory &history)
     {
       Vector records{static_cast<double>(history.samples.size())};
       for (const BreakingSample &s : history.samples)
-        records.insert(records.end(), {s.t, s.kinetic, s.bond, s.work, s.dissipated, s.broken});
+        records.insert(records.end(),
+                       {s.t, s.kinetic, s.bond, s.work, s.dissipated, s.broken, s.drift});
       for (const TimedBreaks &one : history.breaks)
       {
         records.insert(records.end(),
@@ -62,6 +65,7 @@ namespace plumbline::study
         sample.work = r[at + 3];
         sample.dissipated = r[at + 4];
         sample.broken = r[at + 5];
+        sample.drift = r[at + 6];
         history.samples.push_back(sample);
       }
       while (at < r.size())
@@ -82,6 +86,21 @@ namespace plumbline::study
         history.breaks.push_back(std::move(one));
       }
       return history;
+    }
+
+    /// The kinetic energy of the mean velocity.
+    double drift_of(const DrivenBody &driven, const Vector &v)
+    {
+      Vector mean(v.size());
+      for (std::size_t c = 0; c < 2; ++c)
+      {
+        double sum = 0;
+        for (std::size_t i = c; i < v.size(); i += 2)
+          sum += v[i];
+        for (std::size_t i = c; i < v.size(); i += 2)
+          mean[i] = 2 * sum / static_cast<double>(v.size());
+      }
+      return .5 * driven.density * driven.body.motion->product(mean, mean);
     }
 
     /// Move from one sample to the next.
@@ -113,6 +132,7 @@ namespace plumbline::study
       static_cast<analysis::Energies &>(sample) = transient.energies(state);
       sample.work = work;
       sample.dissipated = dissipated;
+      sample.drift = drift_of(driven, state.v);
       history.samples.push_back(sample);
     }
   } // namespace
@@ -142,6 +162,7 @@ namespace plumbline::study
     {
       BreakingSample first;
       static_cast<analysis::Energies &>(first) = transient.energies(history.last);
+      first.drift = drift_of(driven, history.last.v);
       history.samples.push_back(first);
       look(0);
     }
@@ -160,13 +181,48 @@ namespace plumbline::study
 
   double energy_imbalance(const std::vector<BreakingSample> &samples)
   {
+    constexpr double rounding = 1e-10; // of what moves as a whole: its own error is far below
     double largest = 0, size = 0;
     for (const BreakingSample &now : samples)
     {
-      largest = std::max(largest, std::abs(now.excess() - samples.front().excess()));
-      size = std::max({size, now.kinetic, now.bond, std::abs(now.work), now.dissipated});
+      const double change = std::abs(now.excess() - samples.front().excess());
+      if (!std::isfinite(change))
+        return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, change);
+      size = std::max({size, now.kinetic - now.drift, now.bond, std::abs(now.broken),
+                       now.dissipated, rounding * now.kinetic});
     }
     return size > 0 ? largest / size : 0;
+  }
+
+  double energy_gained(const BreakingHistory &history)
+  {
+    double sum = 0;
+    for (const TimedBreaks &one : history.breaks)
+      sum += std::max(0., -one.energy);
+    return sum;
+  }
+
+  double recorded_step(double final_time, unsigned int n_samples, double longest, bool is_exact)
+  {
+    const double interval = final_time / n_samples;
+    const std::uint64_t n = analysis::n_equal_steps(interval, longest);
+    const double step = interval / static_cast<double>(n);
+    constexpr double tolerance = 1e-6;
+    if (is_exact && std::abs(step - longest) > tolerance * longest)
+    {
+      const std::string shorter = base::to_text(step, 8),
+                        longer =
+                            n > 1 ? " or " + base::to_text(interval / static_cast<double>(n - 1), 8)
+                                  : "";
+      throw InputError("Time/steps = " + base::to_text(longest, 8) +
+                       " does not divide Time/final time / " + std::to_string(n_samples) + " = " +
+                       base::to_text(interval, 8) +
+                       ", the time between two records of a body in motion, into whole steps; "
+                       "write " +
+                       shorter + longer);
+    }
+    return step;
   }
 
   namespace
@@ -193,9 +249,9 @@ namespace plumbline::study
       return static_cast<std::size_t>(std::unique(group.begin(), group.end()) - group.begin());
     }
 
-    /// The longest way from `from` over which sides lie in two groups or more.
-    double branched_way(const std::vector<CrackSide> &sides, const Point<2> &from, double h,
-                        double horizon)
+    /// The longest distance from `from` over which sides lie in two groups or more.
+    double branched_length(const std::vector<CrackSide> &sides, const Point<2> &from, double h,
+                           double horizon)
     {
       std::map<long, std::vector<Point<2>>> rings;
       for (const CrackSide &side : sides)
@@ -224,16 +280,16 @@ namespace plumbline::study
                        [](const CrackSide *a, const CrackSide *b)
                        { return a->joined < b->joined; });
       for (const CrackSide *const side : in_time)
-        if (const double way = middle(*side).distance(crack.from); way > crack.way)
+        if (const double advance = middle(*side).distance(crack.from); advance > crack.advance)
         {
-          crack.way = way;
+          crack.advance = advance;
           crack.to = middle(*side);
           if (!crack.t.empty() && crack.t.back() == times[side->joined])
-            crack.tip.back() = way;
+            crack.tip.back() = advance;
           else
           {
             crack.t.push_back(times[side->joined]);
-            crack.tip.push_back(way);
+            crack.tip.push_back(advance);
           }
         }
     }
@@ -250,6 +306,9 @@ namespace plumbline::study
                                        double horizon)
   {
     std::vector<std::vector<CrackSide>> sides(notches.size());
+    std::vector<NotchCrack> cracks(notches.size());
+    const auto direction = [&](std::size_t n)
+    { return notches[n].back() - notches[n][notches[n].size() - 2]; };
     for (const CrackSide &side : path.sides)
       if (side.is_joined)
       {
@@ -258,73 +317,144 @@ namespace plumbline::study
         for (std::size_t n = 1; n < notches.size(); ++n)
           if (at.distance(notches[n].back()) < at.distance(notches[nearest].back()))
             nearest = n;
-        sides[nearest].push_back(side);
+        cracks[nearest].last_joined = std::max(cracks[nearest].last_joined, times[side.joined]);
+        const auto d = direction(nearest);
+        if ((at - notches[nearest].back()) * d >= -model.h * d.norm())
+          sides[nearest].push_back(side);
       }
-    std::vector<NotchCrack> cracks(notches.size());
     for (std::size_t n = 0; n < notches.size(); ++n)
     {
       NotchCrack &crack = cracks[n];
       crack.from = crack.to = notches[n].back();
       follow(crack, sides[n], times);
-      if (crack.way > 0)
-        crack.angle =
-            angle_between(crack.from - notches[n][notches[n].size() - 2], crack.to - crack.from);
-      crack.branched = branched_way(sides[n], crack.from, model.h, horizon);
+      if (crack.advance > 0)
+        crack.angle = angle_between(direction(n), crack.to - crack.from);
+      crack.branched = branched_length(sides[n], crack.from, model.h, horizon);
     }
     return cracks;
   }
 
-  BreakingOutcome judge_breaking(const NotchCrack &crack, double final_time, double horizon,
-                                 double transit, bool is_at_boundary)
+  namespace
+  {
+    /// Of a body's cells.
+    class Cells
+    {
+    public:
+      explicit Cells(const GrowthModel &model) : model_(model)
+      {
+        for (const Point<2> &node : model.nodes)
+          cells_.insert(cell(node));
+      }
+
+      bool have(const Point<2> &x) const { return cells_.count(cell(x)) > 0; }
+
+    private:
+      std::array<long, 2> cell(const Point<2> &x) const
+      {
+        const auto along = [&](unsigned int d)
+        { return std::lround((x[d] - model_.nodes.front()[d]) / model_.h); };
+        return {along(0), along(1)};
+      }
+
+      const GrowthModel &model_;
+      std::set<std::array<long, 2>> cells_;
+    };
+  } // namespace
+
+  bool is_at_boundary(const GrowthModel &model, const Point<2> &x, double distance)
+  {
+    constexpr int n = 16;
+    constexpr double rounding = 1e-9;
+    const Cells cells(model);
+    for (int k = 0; k < n; ++k)
+      if (!cells.have(x + (1 + rounding) * distance *
+                              Point<2>(std::cos(2 * M_PI * k / n), std::sin(2 * M_PI * k / n))))
+        return true;
+    return false;
+  }
+
+  void check_mouths(const GrowthModel &model, const std::vector<geometry::Polyline> &notches,
+                    const Point<2> &origin)
+  {
+    const auto text = [&](const Point<2> &x)
+    {
+      return "(" + base::to_text(x[0] + origin[0], 4) + ", " + base::to_text(x[1] + origin[1], 4) +
+             ")";
+    };
+    for (const geometry::Polyline &notch : notches)
+      if (!is_at_boundary(model, notch.front(), model.h))
+        throw InputError("Domain/cracks: the notch from " + text(notch.front()) + " to " +
+                         text(notch.back()) +
+                         " begins within the body, and its crack is followed from its last point "
+                         "alone; give it from its mouth to its tip, the mouth at the boundary of "
+                         "the body or outside of it");
+  }
+
+  BreakingOutcome judge_breaking(const NotchCrack &crack, double last_joined, double final_time,
+                                 double horizon, double transit, bool is_at_boundary)
   {
     using Outcome = scene::CrackOutcome;
     constexpr double to_branch = 4, to_run = 2; // horizons
     const auto text = [](double value) { return base::to_text(value, 3); };
-    const std::string advance = "the crack advances by " + text(crack.way / horizon) + " horizons";
-    const double last = crack.t.empty() ? 0 : crack.t.back(), rest = final_time / 3;
+    const std::string advance =
+        "the crack advances by " + text(crack.advance / horizon) + " horizons";
+    const double rest = final_time / 3;
+    const bool is_quiet = final_time - last_joined >= rest;
     if (crack.branched >= to_branch * horizon)
       return {Outcome::branches, "over " + text(crack.branched / horizon) +
                                      " horizons the crack has two parts or more that are farther "
                                      "apart than a horizon"};
-    if (is_at_boundary && crack.way >= to_run * horizon)
-      return {Outcome::runs, advance + " and comes to the boundary of the body"};
-    if (final_time - last >= rest && rest >= 2 * transit)
-      return {Outcome::arrests, advance + ", and not in the last third of the time"};
+    if (is_at_boundary && crack.advance >= to_run * horizon)
+      return {Outcome::runs, advance + " and reaches the boundary of the body"};
+    if (is_quiet && rest >= 2 * transit)
+      return {Outcome::arrests, advance + ", and no crack grows in the last third of the time"};
     return {Outcome::too_short,
             advance +
-                (final_time - last >= rest
-                     ? ", and the time is shorter than six transits of shear waves through "
-                       "the body"
-                     : ", some of it in the last third of the time") +
+                (is_quiet ? ", and the time is shorter than six transits of shear waves through "
+                            "the body"
+                          : ", and cracks still grow in the last third of the time") +
                 "; lengthen Time/final time"};
   }
 
-  double fitted_speed(const NotchCrack &crack)
+  std::optional<double> fitted_speed(const NotchCrack &crack, double horizon)
   {
-    double n = 0, t = 0, x = 0, tt = 0, tx = 0;
-    for (std::size_t i = 0; i < crack.t.size(); ++i)
-      if (const double part = crack.tip[i] / crack.way; part >= .2 && part <= .8)
+    double n_all = 0, tt_all = 0, tx_all = 0;
+    for (std::size_t i = 0; i < crack.t.size();)
+    {
+      double n = 0, t = 0, x = 0, tt = 0, tx = 0; // of a part between two jumps
+      do
       {
-        const double since = crack.t[i] - crack.t.front();
-        ++n;
-        t += since;
-        x += crack.tip[i];
-        tt += since * since;
-        tx += since * crack.tip[i];
-      }
-    return n >= 3 ? (n * tx - t * x) / (n * tt - t * t) : 0;
+        if (const double part = crack.tip[i] / crack.advance; part >= .2 && part <= .8)
+        {
+          const double since = crack.t[i] - crack.t.front();
+          ++n;
+          t += since;
+          x += crack.tip[i];
+          tt += since * since;
+          tx += since * crack.tip[i];
+        }
+        ++i;
+      } while (i < crack.t.size() && crack.tip[i] - crack.tip[i - 1] <= horizon);
+      if (n < 2)
+        continue;
+      n_all += n;
+      tt_all += tt - t * t / n;
+      tx_all += tx - t * x / n;
+    }
+    return n_all >= 3 ? std::optional(tx_all / tt_all) : std::nullopt;
   }
 
-  double fastest_speed(const NotchCrack &crack, double horizon)
+  std::optional<double> fastest_speed(const NotchCrack &crack, double horizon)
   {
-    const double way = 4 * horizon;
-    double fastest = 0;
+    const double least = 4 * horizon;
+    std::optional<double> fastest;
     for (std::size_t i = 0; i < crack.t.size(); ++i)
       for (std::size_t j = i + 1; j < crack.t.size() && crack.tip[j] - crack.tip[j - 1] <= horizon;
            ++j)
-        if (crack.tip[j] - crack.tip[i] >= way)
+        if (crack.tip[j] - crack.tip[i] >= least)
         {
-          fastest = std::max(fastest, (crack.tip[j] - crack.tip[i]) / (crack.t[j] - crack.t[i]));
+          fastest = std::max(fastest.value_or(0),
+                             (crack.tip[j] - crack.tip[i]) / (crack.t[j] - crack.t[i]));
           break;
         }
     return fastest;

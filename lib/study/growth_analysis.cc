@@ -355,8 +355,11 @@ namespace plumbline::study
     void check_growth_size(const scene::Scene &scene, unsigned int n_jobs)
     {
       const GrowthSize size = expected_size(scene, n_jobs);
-      if (scene.time.is_dynamic()) // bonds, of the network and as they are summed, with their ends
-        return base::require_memory(300 * size.n_bonds + 2000 * size.n_nodes,
+      // bonds, of the network and as they are summed, with their ends; nodes, and what drives them
+      // at up to 65 times: as it is given, and in analysis::Transient with its rate
+      const double node_bytes = scene.is_steady() ? 2000 : 2000 + 4000;
+      if (scene.time.is_dynamic())
+        return base::require_memory(300 * size.n_bonds + node_bytes * size.n_nodes,
                                     "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
                                     "choose a larger h (Study/h)", n_jobs);
       const bool is_factor = size.solver == problem::GrowthSolver::factor;
@@ -601,7 +604,7 @@ namespace plumbline::study
   Analysis growth_analysis(const Checkpoints &checkpoints, const WriteDamage &write,
                            const WriteStrip &write_motion)
   {
-    Analysis analysis{"grow", "Quasi-static fracture"};
+    Analysis analysis{"grow", "Fracture bond by bond"};
     analysis.choose_methods = [](const scene::Scene &scene, const Methods &available, unsigned int,
                                  unsigned int n_jobs) -> Methods
     {
