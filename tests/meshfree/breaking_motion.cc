@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <unistd.h>
 
 using namespace plumbline;
@@ -131,7 +132,7 @@ TEST(BreakingMotion, forces_are_the_gradient_of_the_energy)
   }
 }
 
-TEST(BreakingMotion, a_bond_breaks_once_at_its_limit_and_takes_its_energy)
+TEST(BreakingMotion, a_bond_breaks_once_at_its_limit_and_dissipates_its_energy)
 {
   DrivenBody driven = pulled_plate(1);
   method::BreakingMotion &motion = *driven.body.motion;
@@ -160,6 +161,91 @@ TEST(BreakingMotion, a_bond_breaks_once_at_its_limit_and_takes_its_energy)
             cut.body.motion->energy(u, cut.drive.at(.3 * high)));
 }
 
+TEST(BreakingMotion, bonds_break_at_the_stretch_and_with_the_energy_of_the_continuum)
+{
+  // Silling & Askari 2005, sections 3 and 4, in plane strain: bonds of energy c s² r / 2 have, at
+  // the same stretch s of all, the energy density pi c s² δ³ / 6, classically 2 (λ + μ) s²; all
+  // across a line, at s0, have G = ∫_0^δ dz ∫_z^δ 2 acos(z/r) c s0² r² / 2 dr = c s0² δ⁴ / 4.
+  constexpr double delta = 3 * h, G = 1, E = 1;
+  for (const double nu : {nu_of_bonds, .3})
+  {
+    const double lame = E / (2 * (1 + nu) * (1 - 2 * nu)), // λ + μ
+        c = 12 * lame / (M_PI * std::pow(delta, 3)),
+                 s0 = std::sqrt(4 * G / (c * std::pow(delta, 4)));
+    DrivenBody driven = pulled_plate(1, nu);
+    method::BreakingMotion &motion = *driven.body.motion;
+    const Vector u(motion.size());
+    // grips move by t/2: the bonds of length h between them and free nodes have the stretch t/(2h)
+    EXPECT_TRUE(motion.break_bonds(u, driven.drive.at((1 - 1e-9) * 2 * h * s0)).bonds.empty());
+    const Vector g = driven.drive.at(2.2 * 2 * h * s0), all = motion.displacements(u, g);
+    const auto breaks = motion.break_bonds(u, g);
+    ASSERT_GT(breaks.bonds.size(), 2 * 20U); // others than these, too
+    double energy = 0;
+    for (const std::size_t b : breaks.bonds)
+    {
+      const auto [from, to] = driven.body.parts.bonds[b];
+      const dealii::Tensor<1, 2> xi = driven.body.parts.nodes[to] - driven.body.parts.nodes[from];
+      double pull = 0;
+      for (unsigned int d = 0; d < 2; ++d)
+        pull += xi[d] * (all[2 * to + d] - all[2 * from + d]);
+      const double stretch = pull / xi.norm_square();
+      EXPECT_GE(stretch, s0);
+      energy += .5 * c * stretch * stretch * xi.norm() * std::pow(h, 4); // of two cells
+    }
+    if (nu == nu_of_bonds)
+    {
+      EXPECT_NEAR(breaks.energy, energy, 1e-11 * energy);
+    }
+  }
+}
+
+TEST(BreakingMotion, the_balance_is_held_against_energies_that_can_be_lost)
+{
+  BreakingSample start, end;
+  start.kinetic = start.drift = 1000; // it flies as a whole
+  end = start;
+  end.bond = 2; // of which 1 came from nowhere
+  end.work = 1;
+  EXPECT_DOUBLE_EQ(energy_imbalance({start, end}), .5);
+  end.kinetic = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(std::isfinite(energy_imbalance({start, end})));
+  EXPECT_EQ(energy_imbalance({start, start}), 0);
+  DrivenBody driven = pulled_plate(fast);
+  driven.velocity.assign(driven.body.motion->size(), 3.);
+  const BreakingSample first = run_breaking(driven, plan(.01, .005, 1, "drift")).samples.front();
+  EXPECT_NEAR(first.drift, first.kinetic, 1e-12 * first.kinetic);
+}
+
+TEST(BreakingMotion, energy_gained_is_that_of_breaks_that_raise_it)
+{
+  BreakingHistory history;
+  for (const double energy : {2., -.5, 1., -.25})
+  {
+    TimedBreaks one;
+    one.energy = energy;
+    history.breaks.push_back(one);
+  }
+  EXPECT_DOUBLE_EQ(energy_gained(history), .75);
+}
+
+TEST(BreakingMotion, one_step_divides_the_times_of_record)
+{
+  EXPECT_DOUBLE_EQ(recorded_step(12, 120, .03, false), .025);
+  EXPECT_DOUBLE_EQ(recorded_step(12, 120, .5, false), .1);
+  EXPECT_DOUBLE_EQ(recorded_step(12, 120, .025, true), .025);
+  EXPECT_DOUBLE_EQ(recorded_step(46e-6, 120, 1.9166667e-7, true), 46e-6 / 240); // as it is written
+  try
+  {
+    recorded_step(12, 120, .03, true);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("write 0.025 or 0.033333333"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(BreakingMotion, energy_is_balanced_to_the_square_of_the_step)
 {
   // work = kinetic + bonds + broken
@@ -184,7 +270,7 @@ TEST(BreakingMotion, bonds_break_symmetrically_and_their_history_does_not_depend
   EXPECT_EQ(n_unpaired(driven.body.parts, few.broken(end), 1, 0), 0U);
 }
 
-TEST(BreakingMotion, goes_on_after_an_interrupt_to_the_same_bits)
+TEST(BreakingMotion, gives_the_same_bits_after_an_interrupt)
 {
   const BreakingHistory whole = history_of(12, .004, "whole");
   CrackPlan stopped = plan(end, .004, 12, "stopped");
@@ -231,12 +317,18 @@ TEST(NotchCracks, angle_speed_and_branches_follow_from_the_sides)
   add_line(straight, M_PI / 3, 40);
   NotchCrack crack = crack_of(straight);
   EXPECT_NEAR(crack.angle, 60, 1e-9);
-  EXPECT_NEAR(crack.way, 39.5 * h, 1e-12);
-  EXPECT_NEAR(fitted_speed(crack), h / .1, 1e-9);
-  EXPECT_NEAR(fastest_speed(crack, 2 * h), h / .1, 1e-9);
+  EXPECT_NEAR(crack.advance, 39.5 * h, 1e-12);
+  EXPECT_NEAR(*fitted_speed(crack, 2 * h), h / .1, 1e-9);
+  EXPECT_NEAR(*fastest_speed(crack, 2 * h), h / .1, 1e-9);
   for (std::size_t i = 20; i < 40; ++i) // it meets a crack that began ahead of it
     crack.tip[i] += 20 * h;
-  EXPECT_NEAR(fastest_speed(crack, 2 * h), h / .1, 1e-9);
+  crack.advance += 20 * h;
+  EXPECT_NEAR(*fitted_speed(crack, 2 * h), h / .1, 1e-9);
+  EXPECT_NEAR(*fastest_speed(crack, 2 * h), h / .1, 1e-9);
+  crack.t.resize(2); // nothing to fit
+  crack.tip.resize(2);
+  EXPECT_FALSE(fitted_speed(crack, 2 * h));
+  EXPECT_FALSE(fastest_speed(crack, 2 * h));
   EXPECT_EQ(crack.branched, 0);
 
   CrackPath fork; // two branches, farther apart than a horizon from some 9 h on
@@ -248,22 +340,79 @@ TEST(NotchCracks, angle_speed_and_branches_follow_from_the_sides)
   EXPECT_EQ(crack_of(fork).branched, crack.branched);
 }
 
+TEST(NotchCracks, faces_behind_the_tip_are_no_advance)
+{
+  CrackPath path;
+  add_line(path, M_PI / 4, 10);
+  add_line(path, .9 * M_PI, 40); // along a flank, later
+  const NotchCrack crack = crack_of(path);
+  EXPECT_NEAR(crack.advance, 9.5 * h, 1e-12);
+  EXPECT_NEAR(crack.angle, 45, 1e-9);
+  EXPECT_NEAR(crack.last_joined, 3.9, 1e-12); // but cracks grew until then
+}
+
+TEST(NotchCracks, notches_have_their_mouths_at_the_boundary)
+{
+  const GrowthModel body = std::move(pulled_plate(1).body.parts);
+  const auto check = [&](double mouth) {
+    check_mouths(body, {{{mouth, 0}, {10 * h, 0}}}, {100, 0});
+  };
+  EXPECT_NO_THROW(check(-h));
+  EXPECT_NO_THROW(check(0));
+  EXPECT_NO_THROW(check(20 * h));
+  try
+  {
+    check(5 * h);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("(100.2, 0)"), std::string::npos) << text;
+    EXPECT_NE(text.find("from its mouth to its tip"), std::string::npos) << text;
+  }
+}
+
+TEST(NotchCracks, a_seam_between_boxes_is_no_boundary)
+{
+  meshfree::BreakingSolid<2> solid = growth_plate::plate(20, 12, 5 * h, nu_of_bonds);
+  const auto body = [&] { return moving_body(growth_plate::network(solid), {5 * h, 0}).parts; };
+  const GrowthModel one = body();
+  const geometry::Box whole = solid.domain.include.front();
+  solid.domain.include = {{whole.lower, {10 * h, whole.upper[1]}},
+                          {{10 * h, whole.lower[1]}, whole.upper}};
+  const GrowthModel two = body();
+  ASSERT_EQ(one.nodes.size(), two.nodes.size());
+  for (const double x : {.5, 3.2, 9., 10., 10.5, 16., 17.5, 19.5})
+  {
+    const dealii::Point<2> at(x * h, .5 * h);
+    const bool is = x < 3 || x > 17;
+    EXPECT_EQ(is_at_boundary(one, at, 3 * h), is) << x;
+    EXPECT_EQ(is_at_boundary(two, at, 3 * h), is) << x;
+  }
+  EXPECT_TRUE(is_at_boundary(one, {10 * h, 3.5 * h}, 3 * h));
+}
+
 TEST(NotchCracks, outcomes_name_what_they_rest_on)
 {
   using Outcome = scene::CrackOutcome;
   NotchCrack crack;
-  crack.way = 10;
+  crack.advance = 10;
   crack.t = {1, 9.9};
   crack.tip = {1, 10};
+  double last = 9.9;
   const auto outcome = [&](double time, bool is_at_boundary)
-  { return judge_breaking(crack, time, 1, 1, is_at_boundary).outcome; };
+  { return judge_breaking(crack, last, time, 1, 1, is_at_boundary).outcome; };
   EXPECT_EQ(outcome(10, false), Outcome::too_short); // it may still branch
   EXPECT_EQ(outcome(10, true), Outcome::runs);
   EXPECT_EQ(outcome(30, false), Outcome::arrests);
+  last = 25; // a part of it that is not the farthest, or another crack, still grows
+  EXPECT_EQ(outcome(30, false), Outcome::too_short);
   crack.branched = 4;
   EXPECT_EQ(outcome(10, false), Outcome::branches);
   EXPECT_EQ(outcome(1000, true), Outcome::branches); // at any later time
   crack = {};
+  last = 0;
   EXPECT_EQ(outcome(5, false), Outcome::too_short); // less than six transits
   EXPECT_EQ(outcome(7, false), Outcome::arrests);
 }
