@@ -43,7 +43,7 @@ namespace plumbline::study
       return {middle - half, middle + half};
     }
 
-    /// Ends of sides that hang together with the notch.
+    /// Ends of sides that are connected to the notch.
     class Joined
     {
     public:
