@@ -519,6 +519,16 @@ TEST(GrowInMotion, warns_where_breaking_raises_the_energy)
   EXPECT_EQ((usual.out + usual.err).find(warning), std::string::npos) << usual.err;
 }
 
+TEST(GrowInMotion, warns_where_bonds_break_late)
+{
+  const std::string warning = "% beyond s0 on average";
+  const Outcome late = run(branching_plate() + set("Time/critical fractions=0.9") +
+                           set("Expected/crack=unknown")),
+                usual = run(branching_plate());
+  expect_found(late.out + late.err, warning);
+  EXPECT_EQ((usual.out + usual.err).find(warning), std::string::npos) << usual.err;
+}
+
 TEST(GrowInMotion, a_step_that_is_too_long_is_refused_with_the_critical_one)
 {
   expect_refused(branching_plate() + set("Time/steps=1e-5"), "is longer than the critical step");
