@@ -100,8 +100,8 @@ int main(int argc, char **argv)
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int largest = argc > 1 ? std::atoi(argv[1]) : 64;
   const unsigned int most_iterations = argc > 2 ? std::atoi(argv[2]) : 500;
-  for (const std::string method : {"IPA-AC-R2", "Q1"})
-    for (const double nu : {.2, .45, .495, .4999})
+  for (const std::string method : {"FA", "IPA-AC-R2", "Q1"})
+    for (const double nu : {.2, .45, .495, .4999, .49999, .499999})
       for (int n = std::min(16, largest); n <= largest; n *= 2)
       {
         const algebra::Stencil matrix = stencil(method, nu, n);
@@ -111,14 +111,15 @@ int main(int argc, char **argv)
         make_operator(matrix, nodes)->vmult(b, exact);
         std::printf("%s, nu = %g, n = %d: (lambda + 2 mu) / mu = %.3g\n", method.c_str(), nu, n,
                     algebra::coupling(matrix));
-        row(
-            "sines",
-            [&]
-            {
-              return std::make_unique<algebra::StencilSystem>(matrix, nodes,
-                                                              algebra::OperatorBackend::automatic);
-            },
-            exact, b, most_iterations);
+        if (nu < .4999) // beyond it they take more than 1000 iterations
+          row(
+              "sines",
+              [&]
+              {
+                return std::make_unique<algebra::StencilSystem>(
+                    matrix, nodes, algebra::OperatorBackend::automatic);
+              },
+              exact, b, most_iterations);
         row(
             "multipliers",
             [&]

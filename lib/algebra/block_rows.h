@@ -8,8 +8,10 @@ namespace plumbline::algebra
 {
   /// A sparse matrix for many products, in blocks of 2 or 3 components: one column index for each
   /// pair of nodes. Bonds whose force acts along the bond have off-diagonal blocks -g⊗g, of which
-  /// only g is stored: 28 bytes per bond in three dimensions instead of 108. Their
-  /// products differ from those of the matrix by rounding, 1e-15 of Σ |a_ij x_j|.
+  /// only g is stored: 28 bytes per bond in three dimensions instead of 108. Their products differ
+  /// from those of the matrix by rounding: a block is taken as -g⊗g if its entries are met to 8 ε
+  /// of its largest one, so that y_i differs by at most 2e-15 Σ max |A_ij| |x_j|₁ over blocks A_ij,
+  /// which may be more than 1e-15 of Σ |a_ij x_j|.
   class BlockRows
   {
   public:

@@ -21,8 +21,10 @@ namespace plumbline::algebra
   /// 3, the number of slabs that a node is in. A step takes a Fourier transform per component
   /// and its inverse; one of StencilSystem takes sine transforms as well. Measured, linear
   /// peridynamic solids in space, m = 3, n = 16, 32, 64, to 1e-12 of the residual: 26 to 29
-  /// iterations at ν = .2, 43 to 48 at .495 and 58 to 85 at .4999; StencilSystem 19 to 21, 103 to
-  /// 144 and more than 1000. Memory at n = 64: 155 bytes per unknown (83). Source: constraints by
+  /// iterations at ν = .2, 43 to 48 at .495 and 58 to 86 at .4999; StencilSystem 19 to 21, 103 to
+  /// 144 and more than 1000. The number is nearly independent of n but not bounded in λ/μ: for
+  /// n = 16 and 32 it is 119 to 148 at .49999, and 177 (Q1) to 432 (FA) at .499999, where that of
+  /// FA grows as √(λ/μ). Memory at n = 64: 155 bytes per unknown (83). Source: constraints by
   /// multipliers and a coarse problem of constants, Farhat & Roux 1991, doi:10.1002/nme.1620320604;
   /// the sum of inverses on overlapping parts is additive Schwarz, Smith, Bjørstad & Gropp 1996,
   /// Domain Decomposition. Limits: one whole box; even stencils of at most three components that
@@ -38,8 +40,9 @@ namespace plumbline::algebra
 
     void vmult(Vector &y, const Vector &x) const override;
 
-    /// Stops when the recomputed residual is below the tolerance, or as small as rounding permits:
-    /// ε ‖A‖ ‖x‖.
+    /// Stops when the recomputed residual is below the tolerance, or below ε Λ ‖x‖, Λ the largest
+    /// eigenvalue of the periodic operator: rounding of x alone causes as much. The relative
+    /// residual that is returned then exceeds the tolerance.
     LinearSolve solve(Vector &x, const Vector &b, const Stopping &stopping) const override;
 
   private:
@@ -47,10 +50,17 @@ namespace plumbline::algebra
     std::unique_ptr<Parts> parts_;
   };
 
-  /// Memory of a MultiplierSystem [bytes]; 0 if it would need so much that it is not chosen: its
-  /// matrices grow as n² reach².
+  /// Memory of a MultiplierSystem [bytes]: its matrices grow as n² reach².
   double multiplier_bytes(unsigned int n_blocks, const std::array<int, 3> &n,
                           const std::array<int, 3> &reaches);
+
+  /// It is not chosen if it needs more memory than this [bytes].
+  double most_multiplier_bytes(unsigned int n_blocks, const std::array<int, 3> &n);
+
+  /// The memory for a stencil whose reach is known to lie in [least, most]: 0 if it is not chosen
+  /// even with the least.
+  double expected_multiplier_bytes(unsigned int n_blocks, const std::array<int, 3> &n, int least,
+                                   int most);
 
   /// Whether a MultiplierSystem can handle the stencil, see its limits.
   bool has_mirror_images(const Stencil &stencil);
@@ -59,8 +69,13 @@ namespace plumbline::algebra
   /// one component.
   double coupling(const Stencil &stencil);
 
-  /// The solver for a stencil on nodes in space with the least expected time: multipliers if
-  /// components are coupled strongly, else StencilSystem.
+  /// A MultiplierSystem is chosen if the coupling is larger than this. Both solvers take the same
+  /// time there for n <= 32; at n = 64 multipliers are faster from a coupling of 3 on.
+  constexpr double strong_coupling = 10;
+
+  /// The solver for a stencil on nodes in space, chosen by the coupling alone: multipliers if it is
+  /// strong, within their limits; otherwise, or if the periodic operator is not positive definite,
+  /// StencilSystem.
   std::unique_ptr<LinearSystem>
   make_box_system(const Stencil &stencil, const geometry::BoxNodes &nodes, OperatorBackend backend);
 } // namespace plumbline::algebra

@@ -1,6 +1,7 @@
 #include "algebra/periodic_box.h"
 
 #include "algebra/sine_symbol.h"
+#include "base/error.h"
 
 #include <Eigen/Dense>
 
@@ -84,14 +85,17 @@ namespace plumbline::algebra
       for (unsigned int s = 0, at = 0; s < n_blocks_; ++s)
         for (unsigned int t = 0; t <= s; ++t, ++at)
           block(s, t) = block(t, s) = packed[at];
-      largest_ = std::max(largest_, block.trace());
       const Eigen::LLT<Block> cholesky(block);
-      if (const bool is_longest = q == 1 || q == row || q == plane;
-          is_longest || cholesky.info() != Eigen::Success)
+      const bool is_factored = cholesky.info() == Eigen::Success,
+                 is_longest = q == 1 || q == row || q == plane;
+      if (is_longest || !is_factored || block.trace() > largest_) // the trace is the larger one
       {
         const auto values =
             Eigen::SelfAdjointEigenSolver<Block>(block, Eigen::EigenvaluesOnly).eigenvalues();
         check_positive(values.minCoeff(), values.maxCoeff());
+        if (!is_factored)
+          throw NumericalError("the symbol of the periodic operator is singular to rounding");
+        largest_ = std::max(largest_, values.maxCoeff());
         if (is_longest && (longest_wave_ == 0 || values.minCoeff() < longest_wave_))
           longest_wave_ = values.minCoeff();
       }

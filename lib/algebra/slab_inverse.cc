@@ -1,6 +1,7 @@
 #include "algebra/slab_inverse.h"
 
 #include "algebra/simd.h"
+#include "base/error.h"
 
 #include <Eigen/Dense>
 
@@ -114,6 +115,9 @@ namespace plumbline::algebra
                          : mirrored * matrix(s * n_planes + y - x, t * n_planes);
         }
       const Eigen::LLT<Eigen::MatrixXd> cholesky(matrix); // of the lower triangle
+      if (cholesky.info() != Eigen::Success)
+        throw NumericalError("the flexibility of a slab of constrained nodes is not positive "
+                             "definite to rounding");
       Eigen::Map<Eigen::MatrixXd>(inverse_.data() + mode * width_ * width_, width_, width_) =
           scale * cholesky.solve(Eigen::MatrixXd::Identity(width_, width_));
     }

@@ -14,6 +14,7 @@ namespace plumbline::algebra
   public:
     /// Constants, the kernel of C, get the stiffness of the box's longest wave.
     /// @pre the box has a layer across the axis
+    /// @throws NumericalError  a mode's matrix is not positive definite to rounding
     SlabInverse(const PeriodicBox &box, unsigned int axis);
 
     /// Bytes of its matrices.

@@ -1,6 +1,5 @@
 #include "method/lattice_discretisation.h"
 
-#include "algebra/multiplier_system.h"
 #include "algebra/sparse.h"
 #include "method/lattice_motion.h"
 #include "method/stencil_rows.h"
@@ -190,16 +189,7 @@ namespace plumbline::method
     const double n_padded = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
                             (is_in_space ? size.depth + 2 * reach : 1);
     const double width = 2 * reach + 1, n_bonds = is_in_space ? 4.2 * reach : 3.2;
-    double of_multipliers = 0; // of a solid that may be nearly incompressible
-    if (is_in_space && size.is_box && size.has_dilatation && n_families == 1)
-    {
-      const auto n_reach = static_cast<int>(reach);
-      const auto cells = [](double extent) { return static_cast<int>(std::lround(extent)); };
-      of_multipliers = algebra::multiplier_bytes(
-          n_components, {cells(size.extents[0]), cells(size.extents[1]), cells(size.depth)},
-          {n_reach, n_reach, n_reach});
-    }
-    return of_multipliers + n * n_blocks * of_unknown + n_padded * of_mode +
+    return n * n_blocks * of_unknown + n_padded * of_mode +
            std::pow(width * n_blocks, 2) * (is_in_space ? width : 1) * value +
            n_bonds * reach * reach * bond;
   }

@@ -76,7 +76,7 @@ TEST(BlockRows, have_the_products_of_the_matrix)
     }
 }
 
-TEST(BlockRows, keep_blocks_that_push)
+TEST(BlockRows, keep_whole_blocks_of_bonds_with_negative_weights)
 {
   CsrMatrix rows = ring(7, 3, true);
   for (double &value : rows.value)
