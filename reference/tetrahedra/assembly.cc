@@ -562,7 +562,8 @@ namespace plumbline::reference
       for (std::size_t k = b.start[row]; k < b.start[row + 1]; ++k)
         changes[b.column[k]] -= b.value[k];
       for (const auto &[column, change] : changes)
-        worst = std::max(worst, std::abs(change));
+        if (!(std::abs(change) <= worst) && !std::isnan(worst)) // NaN is larger than all
+          worst = std::abs(change);
     }
     return worst / largest;
   }

@@ -23,8 +23,7 @@ namespace plumbline::reference
     /// thousands of pairs, whose round-off is random, add up to an entry.
     double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
-    /// Allowed error per pair of the quadrature that jumps of linear functions always need, as
-    /// `tolerance`.
+    /// Tolerance of the quadrature for jumps, per pair, in the unit of `tolerance`.
     double of_jumps = 1e-6;
     /// Pairs of faces with all vertices on a lattice of this spacing [length] that are translations
     /// of each other are integrated once; 0: they are not.
@@ -39,6 +38,11 @@ namespace plumbline::reference
     /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
     /// diagonal entry.
     double error = 0;
+    /// Pairs of faces whose quadrature for jumps did not reach its tolerance at the finest level.
+    std::size_t n_open = 0;
+    /// What their last changes by refinement may add up to in the entries of one face, relative to
+    /// the least diagonal entry. Infinite where an integral is not finite.
+    double open = 0;
   };
 
   /// Rows ½∬C(x - y) (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) of unknowns i = 0 ... n_rows - 1 by all
@@ -53,6 +57,6 @@ namespace plumbline::reference
                                        const FaceRule &rule, FaceRuleUse *use = nullptr);
 
   /// The largest difference of two entries in rows that both have, relative to the largest entry
-  /// there.
+  /// there; NaN if an entry is.
   double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b);
 } // namespace plumbline::reference

@@ -199,6 +199,7 @@ namespace plumbline::reference
       {
         std::vector<unsigned int> near, place; ///< place: of cells among columns + 1, else 0
         FaceRuleUse use;
+        double open = 0; ///< of one face: see FaceRuleUse
       };
 
       /// For each cell of a face, what it adds to the cell's rows.
@@ -214,6 +215,7 @@ namespace plumbline::reference
           box.upper[d] += 1;
         }
         search_.find(box, work.near);
+        work.open = 0;
         for (const unsigned int other : work.near)
         {
           const JumpFace &g = faces_[other];
@@ -234,6 +236,7 @@ namespace plumbline::reference
                   block_of(f, f.sides[side], g, of_g, pair, other == face ? .5 : 1));
           }
         }
+        work.use.open = std::max(work.use.open, work.open);
         for (const Block &block : rows[0])
           work.place[block.cell] = 0;
         for (std::size_t side = 0; side < f.sides.size(); ++side)
@@ -262,10 +265,21 @@ namespace plumbline::reference
         else
         {
           pair = make(f.face, g.face);
-          ++work.use.n_pairs[pair.slopes.level];
+          count(pair, work);
         }
+        // see block_of(): λ_a of one face by slopes of the other's cells
+        if (pair.jumps.open > 0)
+          work.open +=
+              pair.jumps.open * (1 + f.face.radius() * g.steepest + g.face.radius() * f.steepest);
         work.use.error = std::max(work.use.error, pair.slopes.error * f.steepest * g.steepest);
         return pair;
+      }
+
+      static void count(const PairIntegrals &pair, Workspace &work)
+      {
+        ++work.use.n_pairs[pair.slopes.level];
+        if (pair.jumps.open > 0)
+          ++work.use.n_open;
       }
 
       PairIntegrals make(const PairFace &f, const PairFace &g) const
@@ -291,7 +305,7 @@ namespace plumbline::reference
         const PairIntegrals pair = make(f, g);
         const std::lock_guard<std::mutex> lock(mutex_);
         if (known_.try_emplace(places, pair).second)
-          ++work.use.n_pairs[pair.slopes.level];
+          count(pair, work);
         return pair;
       }
 
@@ -421,6 +435,8 @@ namespace plumbline::reference
             for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
               total.n_pairs[level] += work.use.n_pairs[level];
             total.error = std::max(total.error, work.use.error);
+            total.n_open += work.use.n_open;
+            total.open = std::max(total.open, work.use.open);
           },
           4);
       for (std::size_t face = first; face < last; ++face)
@@ -434,6 +450,7 @@ namespace plumbline::reference
     {
       *use = total;
       use->error /= least_diagonal(rows);
+      use->open /= least_diagonal(rows);
     }
     return to_matrix(rows, kernel.constant() * std::pow(kernel.horizon(), 6)); // of ∬γ
   }

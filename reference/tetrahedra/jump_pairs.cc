@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::reference
 {
@@ -66,7 +67,7 @@ namespace plumbline::reference
       std::vector<double> points, weights;
     };
 
-    constexpr unsigned int most_gauss_points = 64;
+    constexpr unsigned int most_gauss_points = 200; // see LinePoints
 
     const GaussRule &gauss(unsigned int n)
     {
@@ -93,7 +94,7 @@ namespace plumbline::reference
       LinePoints(double from, double to, double square)
       {
         // r is singular at τ = ± iη; far from there by τ, else by τ = η sinh s, of which it is
-        // analytic where |Im s| < π/2
+        // analytic where |Im s| < π/2: at most 195 points for |τ| < 1
         constexpr double least_axis = 1.25, least_eta = 1e-14;
         const double axis =
             (std::sqrt(from * from + square) + std::sqrt(to * to + square)) / (to - from);
@@ -130,13 +131,15 @@ namespace plumbline::reference
       const GaussRule &choose(double ellipse)
       {
         constexpr double half_of_digits = 9.2;
-        n = std::min(2 + static_cast<unsigned int>(half_of_digits / std::log(ellipse)), most);
+        n = 2 + static_cast<unsigned int>(half_of_digits / std::log(ellipse));
+        if (!(n <= most)) // not for sides within the horizon
+          n = most;
         return gauss(n);
       }
     };
   } // namespace
 
-  /// A triangle that points see.
+  /// A face that integrals at points are over.
   class JumpPairs::Triangle
   {
   public:
@@ -185,49 +188,60 @@ namespace plumbline::reference
     JumpIntegrals result;
     if (are_out_of_reach(f, g))
       return result;
-    const Sights from_f = look(f, g), from_g = look(g, f);
+    const FaceIntegrals over_f = integrate_over(f, g), over_g = integrate_over(g, f);
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
       {
         constexpr double half = .5;
-        result.values[a][b] = half * (from_f.values[a][b] + from_g.values[b][a]);
+        result.values[a][b] = half * (over_f.values[a][b] + over_g.values[b][a]);
       }
+    result.open = std::max(over_f.open, over_g.open);
     if (f.names() != g.names()) // else in its own plane
     {
-      result.first = from_f.slopes;
-      result.second = from_g.slopes;
+      result.first = over_f.slopes;
+      result.second = over_g.slopes;
     }
     return result;
   }
 
-  JumpPairs::Sights JumpPairs::look(const PairFace &from, const PairFace &to) const
+  JumpPairs::FaceIntegrals JumpPairs::integrate_over(const PairFace &outer,
+                                                     const PairFace &inner) const
   {
-    const Order order(from, to);
-    const Triangle face(to);
+    const Order order(outer, inner);
+    const Triangle face(inner);
     const std::vector<Rule> &rules = rules_[order.n_shared];
-    Sights sights = look(from, face, order.of, rules.front());
+    FaceIntegrals integrals = integrate_over(outer, face, order.of, rules.front());
     for (std::size_t level = 1; level < rules.size(); ++level)
     {
-      const Sights finer = look(from, face, order.of, rules[level]);
-      double change = 0;
+      const FaceIntegrals finer = integrate_over(outer, face, order.of, rules[level]);
+      double change = 0, sum = 0; // the sum is finite if all of them are
+      const auto compare = [&](double last, double before, double unit)
+      {
+        change = std::max(change, std::abs(last - before) / unit);
+        sum += std::abs(last);
+      };
       for (unsigned int a = 0; a < 3; ++a)
       {
-        change = std::max(change, std::abs(finer.slopes[a] - sights.slopes[a]) / from.radius());
+        compare(finer.slopes[a], integrals.slopes[a], outer.radius());
         for (unsigned int b = 0; b < 3; ++b)
-          change = std::max(change, std::abs(finer.values[a][b] - sights.values[a][b]));
+          compare(finer.values[a][b], integrals.values[a][b], 1);
       }
-      sights = finer;
-      if (change <= tolerance_)
+      integrals = finer;
+      integrals.open = std::isfinite(sum) ? change : std::numeric_limits<double>::infinity();
+      if (integrals.open <= tolerance_)
+      {
+        integrals.open = 0;
         break;
+      }
     }
-    return sights;
+    return integrals;
   }
 
-  JumpPairs::Sights JumpPairs::look(const PairFace &from, const Triangle &to,
-                                    const std::array<unsigned int, 3> &order,
-                                    const Rule &rule) const
+  JumpPairs::FaceIntegrals JumpPairs::integrate_over(const PairFace &outer, const Triangle &inner,
+                                                     const std::array<unsigned int, 3> &order,
+                                                     const Rule &rule) const
   {
-    Sights sights;
+    FaceIntegrals integrals;
     for (std::size_t q = 0; q < rule.points.size(); ++q)
     {
       std::array<double, 3> s{};
@@ -235,25 +249,26 @@ namespace plumbline::reference
       for (unsigned int k = 0; k < 3; ++k)
       {
         s[order[k]] = rule.points[q][k];
-        x += rule.points[q][k] * from.vertices()[order[k]];
+        x += rule.points[q][k] * outer.vertices()[order[k]];
       }
-      const Seen seen = see(to, x);
-      const double weight = rule.weights[q] * from.area();
+      const PointIntegrals at_x = integrals_at(x, inner);
+      const double weight = rule.weights[q] * outer.area();
       for (unsigned int a = 0; a < 3; ++a)
       {
-        sights.slopes[a] += weight * s[a] * seen.slope;
+        integrals.slopes[a] += weight * s[a] * at_x.slope;
         for (unsigned int b = 0; b < 3; ++b)
-          sights.values[a][b] += weight * s[a] * seen.values[b];
+          integrals.values[a][b] += weight * s[a] * at_x.values[b];
       }
     }
-    return sights;
+    return integrals;
   }
 
-  JumpPairs::Seen JumpPairs::see(const Triangle &face, const Point<3> &from) const
+  JumpPairs::PointIntegrals JumpPairs::integrals_at(const Point<3> &point,
+                                                    const Triangle &face) const
   {
     constexpr double flat = 1e-13; // a height that is none
-    Seen seen;
-    const Tensor<1, 3> first = face.x[0] - from;
+    PointIntegrals integrals;
+    const Tensor<1, 3> first = face.x[0] - point;
     const double height = -(face.normal * first), distance = std::abs(height);
     std::array<double, 3> at_foot{}; // λ_b
     for (unsigned int b = 0; b < 3; ++b)
@@ -268,7 +283,7 @@ namespace plumbline::reference
       Values whole;
       for (unsigned int k = 0; k < 3; ++k)
       {
-        const Tensor<1, 3> start = face.x[k] - from;
+        const Tensor<1, 3> start = face.x[k] - point;
         Side side;
         side.kappa = face.outward[k] * start;
         side.from = face.along[k] * start;
@@ -276,14 +291,14 @@ namespace plumbline::reference
         double moment = 0;
         add_side(part, side, distance, foot, whole, moment);
         for (unsigned int b = 0; b < 3; ++b)
-          seen.values[b] += (face.slope[b] * face.outward[k]) * moment;
+          integrals.values[b] += (face.slope[b] * face.outward[k]) * moment;
       }
       for (unsigned int b = 0; b < 3; ++b)
-        seen.values[b] += at_foot[b] * whole.harmonic;
+        integrals.values[b] += at_foot[b] * whole.harmonic;
       if (distance > flat)
-        seen.slope += height * whole.biharmonic;
+        integrals.slope += height * whole.biharmonic;
     }
-    return seen;
+    return integrals;
   }
 
   void JumpPairs::add_side(const Part &part, const Side &side, double distance, const Values &foot,

@@ -137,7 +137,8 @@ namespace plumbline::reference
         changes[{row, offset, type}] -= value;
     }
     for (const auto &[place, change] : changes)
-      worst = std::max(worst, std::abs(change));
+      if (!(std::abs(change) <= worst) && !std::isnan(worst)) // NaN is larger than all
+        worst = std::abs(change);
     return worst / largest;
   }
 } // namespace plumbline::reference

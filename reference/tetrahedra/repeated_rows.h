@@ -20,7 +20,7 @@ namespace plumbline::reference
     algebra::CsrMatrix on(const TetrahedralSpace &space,
                           const geometry::CubeLattice &lattice) const;
 
-    /// The largest difference of two entries, relative to the largest entry.
+    /// The largest difference of two entries, relative to the largest entry; NaN if one is.
     double difference(const RepeatedRows &other) const;
 
   private:
