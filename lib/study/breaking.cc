@@ -114,6 +114,8 @@ namespace plumbline::study
       BreakingSample sample = history.samples.back();
       motion.changes = [&](const State &now)
       {
+        if (plan.checkpoints.is_to_stop())
+          throw Interrupted();
         log.observe(now);
         TimedBreaks breaks{driven.body.motion->break_bonds(now.u, driven.drive.at(now.t)), now.t};
         if (breaks.bonds.empty())
@@ -168,13 +170,25 @@ namespace plumbline::study
     }
     for (auto k = static_cast<unsigned int>(history.samples.size()); k <= plan.n_samples; ++k)
     {
-      advance(driven, transient, plan, plan.time(k), history);
-      look(k);
-      const bool is_to_stop = k < plan.n_samples && plan.checkpoints.is_to_stop();
-      if ((k % plan.interval == 0 && k < plan.n_samples) || is_to_stop)
+      const State before = history.last;
+      const std::size_t n_breaks = history.breaks.size();
+      const auto write_checkpoint = [&] {
         analysis::write_checkpoint(file, {plan.subject, history.last, to_records(history)});
-      if (is_to_stop)
-        throw Interrupted();
+      };
+      try
+      {
+        advance(driven, transient, plan, plan.time(k), history);
+      }
+      catch (const Interrupted &) // goes on from the sample before
+      {
+        history.last = before;
+        history.breaks.resize(n_breaks);
+        write_checkpoint();
+        throw;
+      }
+      look(k);
+      if (k % plan.interval == 0 && k < plan.n_samples)
+        write_checkpoint();
     }
     return history;
   }

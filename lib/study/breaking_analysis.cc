@@ -151,6 +151,9 @@ namespace plumbline::study
               std::move(velocity)};
     }
 
+    /// A notched plate takes some thousand.
+    constexpr double most_steps = 1e6;
+
     CrackPlan make_plan(const scene::Scene &scene, const DrivenBody &driven,
                         const Checkpoints &checkpoints, bool has_frames)
     {
@@ -188,6 +191,12 @@ namespace plumbline::study
           plan.critical_step && plan.step > *plan.critical_step && !plan.shows_blow_up;
       if (!is_too_long) // else analysis::integrate says so
         plan.step = recorded_step(plan.final_time, n_samples, plan.step, !scene.time.steps.empty());
+      if (const double n_steps = plan.final_time / plan.step; n_steps > most_steps)
+        throw InputError("Time/final time = " + base::to_text(plan.final_time, 6) + " takes " +
+                         base::to_text(n_steps, 3) + " steps of " + base::to_text(plan.step, 3) +
+                         ", more than " + base::to_text(most_steps, 3) +
+                         "; give the final time in the unit of time that follows from E, "
+                         "Time/density and lengths, or choose a larger h");
       return plan;
     }
 
