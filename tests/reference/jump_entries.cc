@@ -182,6 +182,25 @@ TEST(JumpEntries, of_linear_functions_on_cubes_are_exact_ones_of_cubes)
   }
 }
 
+TEST(JumpEntries, come_with_the_number_of_pairs_that_do_not_reach_the_tolerance)
+{
+  const TetrahedralSpace space(mesh_of_cubes(1, 1, 0), TetrahedralShapes::discontinuous_linear());
+  const auto use_with = [&space](double tolerance)
+  {
+    FaceRuleUse use;
+    assemble_by_faces(space, kernel_of("constant", .2), 4, rule_with(tolerance, 1), &use);
+    return use;
+  };
+  const FaceRuleUse possible = use_with(1e-4), impossible = use_with(1e-30);
+  EXPECT_EQ(possible.n_open, 0u);
+  EXPECT_EQ(possible.open, 0);
+  EXPECT_GT(impossible.n_open, 10u);
+  EXPECT_GT(impossible.open, 1e-30);
+  EXPECT_LT(impossible.open, 1e-2);
+  RecordProperty("open", std::to_string(impossible.n_open) + " " +
+                             std::to_string(1e9 * impossible.open) + "e-9");
+}
+
 TEST(JumpPairs, are_those_of_products_of_gauss_rules)
 {
   const auto kernel = kernel_of("linear-decay", 1);
