@@ -6,6 +6,7 @@
 #include "method/box_discretisation.h"
 #include "report/view.h"
 #include "scene/problem.h"
+#include "study/memory_estimate.h"
 #include "tests/report/fixture.h"
 #include "tests/study/space_scene.h"
 
