@@ -1,12 +1,10 @@
 // Static problems in space, from the scene to verdicts: known errors, the limits that theory says,
 // and references with estimates that are bounds.
-#include "algebra/multiplier_system.h"
 #include "analysis/statics.h"
 #include "io/record_journal.h"
 #include "method/box_discretisation.h"
 #include "report/view.h"
 #include "scene/problem.h"
-#include "study/memory_estimate.h"
 #include "tests/report/fixture.h"
 #include "tests/study/space_scene.h"
 
@@ -326,40 +324,6 @@ TEST(StateBasedInSpace, are_exact_where_the_moments_are_those_of_the_field)
               << record.key.method << ", nu = " << nu << ", " << holes;
         }
       }
-}
-
-TEST(StateBasedInSpace, take_memory_for_multipliers_where_they_are_nearly_incompressible)
-{
-  const auto scene = [](const std::string &nu, const Settings &more = {})
-  {
-    return make_scene(with(with(lps, {{"Material/nu", nu},
-                                      {"Methods/names", "FA, Q1"},
-                                      {"Problem/solution", "x*z, y^2, x^2"},
-                                      {"Study/h", "1/24"}}),
-                           more));
-  };
-  const Methods methods = choose_methods(scene("0.2"), available());
-  const auto estimated = [&](const scene::Scene &of, unsigned int method, unsigned int n_ranks = 1)
-  { return estimate_memory(of, methods, 0, n_ranks)[method].largest.bytes; };
-  const Settings moving = {{"Time/final time", "1"}, {"Problem/solution", "x*sin(t), y, z"}};
-  for (const unsigned int method : {0u, 1u})
-  {
-    const double without = estimated(scene("0.2"), method);
-    EXPECT_EQ(estimated(scene("0.4"), method), without);
-    const int reach = method == 0 ? 6 : 7; // two horizons, and a cell of Q1
-    EXPECT_DOUBLE_EQ(estimated(scene("0.495"), method) - without,
-                     algebra::expected_multiplier_bytes(3, {24, 24, 24}, reach, reach));
-    EXPECT_EQ(estimated(scene("0.495"), method, 2), estimated(scene("0.2"), method, 2));
-    EXPECT_EQ(estimated(scene("0.495", moving), method), estimated(scene("0.2", moving), method));
-  }
-  const auto solved = run(scene("0.495"));
-  ASSERT_EQ(solved.records.size(), 2u);
-  for (unsigned int method = 0; method < 2; ++method)
-  {
-    const auto measured = static_cast<double>(solved.records[method].cost.peak_bytes);
-    EXPECT_GT(estimated(scene("0.495"), method), measured / 2) << methods[method]->name();
-    EXPECT_LT(estimated(scene("0.495"), method), measured * 2) << methods[method]->name();
-  }
 }
 
 TEST(StateBasedInSpace, need_values_within_two_horizons)
