@@ -175,9 +175,9 @@ namespace plumbline::reference
       std::vector<unsigned int> place(space.mesh().cells.size());
       for (unsigned int i = 0; i < place.size(); ++i)
         place[space.cell_at(i)] = i;
-      std::sort(outer.begin(), outer.end(),
-                [&](const OuterCell &a, const OuterCell &b)
-                { return place[a.cell] < place[b.cell]; });
+      std::stable_sort(outer.begin(), outer.end(), // several of one cell stay in order
+                       [&](const OuterCell &a, const OuterCell &b)
+                       { return place[a.cell] < place[b.cell]; });
       const auto [first, last] = communicator.owned_range(outer.size());
       outer.erase(outer.begin() + static_cast<std::ptrdiff_t>(last), outer.end());
       outer.erase(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(first));
