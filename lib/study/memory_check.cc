@@ -134,13 +134,16 @@ namespace plumbline::study
       return !size.is_lattice() && size.depth == 0 && size.n_cells > 0;
     }
 
-    /// Whether ranks share the rows of a mesh: all but those of free bodies by rules, and of
-    /// dilatations that are unknowns.
+    /// Whether ranks share the rows of a mesh: all but those of local methods, and by rules those
+    /// of free bodies and of dilatations that are unknowns.
     bool is_shared_on_mesh(const scene::Scene &scene, const Method &method,
                            const method::ProblemSize &size)
     {
-      const bool is_rule = method.family() == method::MethodFamily::meshfree;
-      return is_on_mesh(size) && !(is_rule && (size.is_body || scene.solver.is_mixed));
+      if (!is_on_mesh(size))
+        return false;
+      if (method.family() == method::MethodFamily::meshfree)
+        return !size.is_body && !scene.solver.is_mixed;
+      return method.family() == method::MethodFamily::reference;
     }
 
     /// What one of several ranks has of rows: its share, and while a Galerkin matrix is assembled
