@@ -134,7 +134,9 @@ namespace plumbline::driver
       if (n_ranks > 1 && scene.domain.is_in_space())
         times = study::predict_times(scene, methods, options.n_levels, n_ranks, rates);
       if (base::Communicator::all().rank() == 0)
-        std::cout << report::memory_text(estimates, n_ranks, base::available_memory())
+        // what is available is of one of the ranks that run, not of those that are not started
+        std::cout << report::memory_text(estimates, n_ranks, base::available_memory(),
+                                         options.n_ranks > 0 ? n_ranks : 1)
                   << report::times_text(times, n_ranks, rates);
     }
 

@@ -9,19 +9,28 @@
 namespace plumbline::report
 {
   std::string memory_text(const std::vector<study::MemoryOfLevel> &estimates, unsigned int n_ranks,
-                          double available)
+                          double available, unsigned int n_here)
   {
-    Table table{"", {"method", "series", "h", "memory", "for", "fits"}, {}};
+    const bool is_of_each = n_ranks > 1, is_of_all = n_here > 1;
+    Table table{"",
+                {"method", "series", "h", is_of_each ? "memory of each rank" : "memory", "for",
+                 is_of_all ? "all fit here" : "fits"},
+                {}};
     for (const study::MemoryOfLevel &one : estimates)
       table.rows.push_back(
           {text_cell(one.method), text_cell(one.series), number_cell(one.level.h),
            text_cell(one.largest.bytes > 0 ? base::bytes_to_text(one.largest.bytes) : "little"),
-           text_cell(one.largest.what), text_cell(one.largest.bytes <= available ? "yes" : "no")});
+           text_cell(one.largest.what),
+           text_cell(n_here * one.largest.bytes <= available ? "yes" : "no")});
     return "estimated peak memory of " +
            (n_ranks > 1 ? "each of " + std::to_string(n_ranks) + " ranks"
                         : std::string("the run")) +
            ", besides that of the program itself" +
-           (std::isfinite(available) ? "; available: " + base::bytes_to_text(available) : "") +
+           (std::isfinite(available)
+                ? "; available" +
+                      std::string(is_of_all ? " to all ranks on this machine: " : ": ") +
+                      base::bytes_to_text(available)
+                : "") +
            "\n\n" + to_text(table);
   }
 

@@ -172,6 +172,13 @@ TEST(Ranks, are_told_the_memory_of_each_before_the_run)
   const Outcome many = run(cube + " --levels 1 --ranks 4");
   expect_found(many.out, "estimated peak memory of each of 4 ranks");
   expect_found(many.out, "predicted time and messages of each of 4 ranks");
+  // ranks that are not started would share what this machine has; those that run have their part
+  expect_found(many.out, "available to all ranks on this machine: ");
+  EXPECT_EQ(count(shared.out, "all fit here"), 0u) << shared.out;
+  const auto answers = [&](const std::string &ranks)
+  { return count(run(cube + " --levels 1 --ranks " + ranks).out, " yes\n"); };
+  EXPECT_EQ(answers("4"), 2u);       // FA and Q2
+  EXPECT_LT(answers("1000000"), 2u); // Q2 takes 1.3 MB of each, 1.3 TB of all together
   const Outcome alone = run(cube);
   expect_found(alone.out, "time: predicted only where several ranks share the work in slabs");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
