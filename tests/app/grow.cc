@@ -510,23 +510,29 @@ TEST(GrowInMotion, warns_where_breaking_raises_the_energy)
   const std::string plate = "grow " + std::string(PLUMBLINE_SCENES) +
                             "/fracture/kalthoff_winkler.prm --set Study/h=0.005 " +
                             "--set Expected/values= --set Expected/crack=unknown";
-  const auto outcome = [&](const std::string &nu) { return run(plate + set("Material/nu=" + nu)); };
+  const fs::path folder = temporary("grow");
+  const auto outcome = [&](const std::string &nu)
+  { return run(plate + set("Material/nu=" + nu) + " -o " + folder.string()); };
   const std::string warning = "the energy of the body rose in some steps";
   const Outcome stiff = outcome("0.45");
   EXPECT_EQ(stiff.exit_code, 0) << stiff.err;
   expect_found(stiff.out + stiff.err, warning);
   const Outcome usual = outcome("0.3");
   EXPECT_EQ((usual.out + usual.err).find(warning), std::string::npos) << usual.err;
+  fs::remove_all(folder);
 }
 
 TEST(GrowInMotion, warns_where_bonds_break_late)
 {
   const std::string warning = "% beyond s0 on average";
-  const Outcome late = run(branching_plate() + set("Time/critical fractions=0.9") +
-                           set("Expected/crack=unknown")),
-                usual = run(branching_plate());
+  const fs::path folder = temporary("grow");
+  const std::string plate = branching_plate() + " -o " + folder.string();
+  const Outcome late =
+                    run(plate + set("Time/critical fractions=0.9") + set("Expected/crack=unknown")),
+                usual = run(plate);
   expect_found(late.out + late.err, warning);
   EXPECT_EQ((usual.out + usual.err).find(warning), std::string::npos) << usual.err;
+  fs::remove_all(folder);
 }
 
 TEST(GrowInMotion, a_step_that_is_too_long_is_refused_with_the_critical_one)
