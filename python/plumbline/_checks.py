@@ -111,6 +111,12 @@ class Findings(dict):
             raise KeyError(key)
         return self._ONCE[key](self)
 
+    def __contains__(self, key):
+        return super().__contains__(key) or key in self._ONCE
+
+    def get(self, key, default=None):
+        return self[key] if key in self else default
+
     @property
     def passed(self):
         return self["passed"]

@@ -98,6 +98,8 @@ def test_periodic_boxes():
     found = space.check(at * h, np.full(n**3, h**3), **given, **box)
     assert found["is_ac"] and found["rule"] == "IPA-AC-R2" and not found["causes"]
     assert found["n_unpaired"] == 0 and found["imbalance"] < 1e-12
+    assert "is_ac" in found and found.get("n_unpaired") == 0  # keys of former versions
+    assert "wrong" not in found and found.get("wrong", 3) == 3
     with pytest.raises(plumbline.InputError, match="outside of the periodic box"):
         space.check(at * h - h, np.full(n**3, h**3), **given, **box)
 
