@@ -63,12 +63,14 @@ namespace plumbline::meshfree
     }
 
     /// Sets what each cause does to the moments, the others being undone.
+    /// @param families  scratch: a second copy of large families would take much memory
     template <int dim>
-    void weigh(const GivenBonds<dim> &given, std::vector<Mend<dim>> &mends)
+    void weigh(const GivenBonds<dim> &given, std::vector<Family<dim>> &families,
+               std::vector<Mend<dim>> &mends)
     {
       const auto undo_all_but = [&](const Mend<dim> *left)
       {
-        std::vector<Family<dim>> families = given.families;
+        families = given.families;
         for (const Mend<dim> &mend : mends)
           if (&mend != left)
             mend.undo(families);
@@ -87,18 +89,19 @@ namespace plumbline::meshfree
 
     /// The one place where causes are dropped whose removal does not make the moments better.
     template <int dim>
-    void keep_what_helps(const GivenBonds<dim> &given, std::vector<Mend<dim>> &mends)
+    void keep_what_helps(const GivenBonds<dim> &given, std::vector<Family<dim>> &scratch,
+                         std::vector<Mend<dim>> &mends)
     {
       const auto helps = [](const Mend<dim> &mend)
       {
         return mend.need == Need::nothing || is_better(mend.cause) ||
                (mend.need == Need::not_worse && mend.cause.after <= mend.cause.before + exact);
       };
-      weigh(given, mends);
+      weigh(given, scratch, mends);
       while (!std::all_of(mends.begin(), mends.end(), helps))
       { // the last one first: earlier ones leave the stronger marks
         mends.erase(std::find_if_not(mends.rbegin(), mends.rend(), helps).base() - 1);
-        weigh(given, mends);
+        weigh(given, scratch, mends);
       }
     }
 
@@ -145,7 +148,7 @@ namespace plumbline::meshfree
       if (mend->cause.factor == 0)
         break; // of weights that are all 0 there is nothing else to say
     }
-    keep_what_helps(given, mends);
+    keep_what_helps(given, families, mends);
     for (const Mend<dim> &mend : mends)
     {
       result.causes.push_back(mend.cause);

@@ -321,11 +321,15 @@ namespace plumbline::meshfree
       constexpr double same = 1e-3; // m is that of the mean cell
       constexpr double near = .1;   // more than a rule's own error
       const GivenBonds<dim> &given = evidence.given;
+      if (evidence.rule && std::abs(found - 1) <= given.precision.weight)
+        return {};
       const double before = typical(given.families, given.kernel);
       std::optional<Factor> best;
       for (FactorHypothesis one : factor_hypotheses<dim>(evidence))
       {
-        if (one.factor == 1 && found > 0)
+        const bool is_like_none = one.factor != evidence.circumstances.volume_factor &&
+                                  std::abs(one.factor - 1) < same; // as 1/h^3 where h is near 1
+        if ((one.factor == 1 && found > 0) || (one.factor != 1 && is_like_none))
           continue;
         const double signed_factor = found < 0 ? -one.factor : one.factor;
         if (one.is_far_fetched && !(std::abs(found / signed_factor - 1) < near))
@@ -389,6 +393,8 @@ namespace plumbline::meshfree
     const std::vector<std::string> &meant = evidence.circumstances.meant;
     const auto is_meant = [&](const std::string &name)
     { return std::find(meant.begin(), meant.end(), name) != meant.end(); };
+    if (is_meant("FA"))
+      return {};
     std::optional<Mend<dim>> best;
     double best_after = 0;
     for (const RampEffect &effect : ramp_effects(given, given.families))
@@ -404,7 +410,7 @@ namespace plumbline::meshfree
                          for (Bond<dim> &bond : family.bonds)
                            bond.weight *= ratio;
                      }};
-      if (is_meant(effect.rule) && !is_meant("FA") && !is_meant("all") && effect.is_seen())
+      if (is_meant(effect.rule) && !is_meant("all") && effect.is_seen())
       {
         mend.need = Need::nothing;
         mend.cause.text += " at " + std::to_string(effect.n_changed) + " of " +
