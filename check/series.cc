@@ -112,6 +112,13 @@ namespace plumbline::check
       return trends;
     }
 
+    /// Of degree 2 in the plane, of degrees 1 and 2 in space, as in former versions.
+    template <int dim>
+    double median_moment(const meshfree::MomentCheck &moments)
+    {
+      return dim == 2 ? moments.defects[1].median : moments.typical();
+    }
+
     template <int dim>
     std::vector<report::Cell> row_of(const Findings<dim> &found)
     {
@@ -120,7 +127,7 @@ namespace plumbline::check
               report::count_cell(found.weights.n_bonds),
               report::error_cell(found.moments.defects[0].worst.value),
               report::error_cell(found.moments.second.value),
-              report::error_cell(found.moments.defects[1].median),
+              report::error_cell(median_moment<dim>(found.moments)),
               report::text_cell(found.rule)};
     }
 
