@@ -171,6 +171,9 @@ end
       std::string text = replaced(scene, "KERNEL", is_tensor ? "bond-tensor" : "linear-decay");
       text = replaced(text, "LIMIT", is_tensor ? "Navier" : "-1/2 Laplace");
       text = replaced(text, "SOLUTION", is_tensor ? "x, y, z" : "x");
+      const std::string side = base::to_text(side_, 8);
+      text = replaced(text, "1, 1, 1", side + ", " + side + ", " + side);
+      text = replaced(text, "h = 0.2", "h = " + base::to_text(side_ * h, 8));
       std::ofstream(folder_ / "scene.prm") << replaced(text, "MEANT", meant);
       return run(
           "check '" + (folder_ / "nodes").string() + ending + "' '" + (folder_ / "bonds").string() +
@@ -179,6 +182,7 @@ end
     }
 
     fs::path folder_;
+    double side_ = 1; ///< of the cube
 
   private:
     static std::string text(double value) { return base::to_text(value, 17); }
@@ -224,6 +228,35 @@ TEST_F(CheckInSpace, passes_right_weights_however_they_are_written)
     EXPECT_NE(outcome.out.find("the weights are those of " + rule + "\n"), std::string::npos)
         << outcome.out;
   }
+}
+
+TEST_F(CheckInSpace, finds_no_missing_volume_where_h_is_about_1)
+{
+  // 1/h^3, 1/h and 1/c are then within rounding of m of 1, the factor of right weights
+  for (const double cell : {.9997, 1., 1.0003})
+    for (const std::string rule : {"FA", "LAMMPS"})
+    {
+      side_ = n * cell;
+      Dump one = dump(rule, false);
+      for (Point<3> &place : one.places)
+        place *= side_;
+      for (double &volume : one.volumes)
+        volume *= std::pow(side_, 3);
+      for (Row &row : one.rows)
+      {
+        row.weight *= std::pow(side_, 3);
+        row.kernel_point *= side_;
+      }
+      write(one);
+      const Outcome outcome = check(rule, false, "--require moments=0.5");
+      EXPECT_EQ(outcome.exit_code, 0) << cell << ", " << rule << outcome.out << outcome.err;
+      for (Row &row : one.rows)
+        row.weight *= 2;
+      write(one);
+      const Outcome twice = check(rule, false, "--require moments=0.5");
+      EXPECT_EQ(twice.exit_code, 1);
+      EXPECT_NE(twice.out.find("twice too large"), std::string::npos) << twice.out;
+    }
 }
 
 TEST_F(CheckInSpace, needs_neither_rules_nor_a_problem)
