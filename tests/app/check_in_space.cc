@@ -174,6 +174,7 @@ end
       const std::string side = base::to_text(side_, 8);
       text = replaced(text, "1, 1, 1", side + ", " + side + ", " + side);
       text = replaced(text, "h = 0.2", "h = " + base::to_text(side_ * h, 8));
+      text = replaced(text, "set m = 2", "set m = " + std::to_string(m_));
       std::ofstream(folder_ / "scene.prm") << replaced(text, "MEANT", meant);
       return run(
           "check '" + (folder_ / "nodes").string() + ending + "' '" + (folder_ / "bonds").string() +
@@ -183,6 +184,7 @@ end
 
     fs::path folder_;
     double side_ = 1; ///< of the cube
+    int m_ = m;
 
   private:
     static std::string text(double value) { return base::to_text(value, 17); }
@@ -257,6 +259,15 @@ TEST_F(CheckInSpace, finds_no_missing_volume_where_h_is_about_1)
       EXPECT_EQ(twice.exit_code, 1);
       EXPECT_NE(twice.out.find("twice too large"), std::string::npos) << twice.out;
     }
+}
+
+TEST_F(CheckInSpace, misses_no_ramp_where_whole_cells_are_meant)
+{
+  m_ = 3;
+  write(dump("FA", true, n, m_));
+  const Outcome outcome = check("FA", true, "--require moments=0.9");
+  std::ifstream file(folder_ / "out" / "check.json");
+  EXPECT_TRUE(nlohmann::json::parse(file).at("causes").empty()) << outcome.out;
 }
 
 TEST_F(CheckInSpace, needs_neither_rules_nor_a_problem)
