@@ -4,6 +4,7 @@
 #include "base/communicator.h"
 #include "base/error.h"
 #include "base/number_list.h"
+#include "base/workers.h"
 #include "check/moduli.h"
 #include "check/requirements.h"
 #include "check/rule_weights.h"
@@ -133,6 +134,8 @@ namespace plumbline::app
             options->overrides = to_overrides(request.settings);
             if constexpr (std::is_base_of_v<SceneOptions, Options>)
             {
+              if (options->is_worker)
+                base::end_with_parent();
               options->arguments = request.arguments;
               options->n_threads = request.n_threads;
             }

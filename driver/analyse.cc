@@ -9,6 +9,7 @@
 #include "driver/jobs.h"
 #include "driver/methods.h"
 #include "driver/provenance.h"
+#include "driver/writable.h"
 #include "io/output_folder.h"
 #include "io/point_vtu.h"
 #include "io/record_journal.h"
@@ -20,7 +21,6 @@
 #include "study/reference_estimate.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -49,16 +49,6 @@ namespace plumbline::driver
                                            report::slug(record.key.series) +
                                            (++k > 1 ? "_" + std::to_string(k) : "") + ".vtu"));
       }
-    }
-
-    /// So that no work is lost at the end.
-    void require_writable(const fs::path &file)
-    {
-      const bool is_there = fs::exists(file);
-      if (!std::ofstream(file, std::ios::app))
-        report::write_file(file, ""); // tells why not
-      if (!is_there)
-        fs::remove(file);
     }
 
     /// A failure that the scene expects ("method: failed") is no error of the command.
@@ -150,13 +140,14 @@ namespace plumbline::driver
                ": " + task_.analysis.options + "\n" + scene_.text;
       }
 
+      /// The journal last: what it has is not made again.
       void store(const study::StudyResults &made)
       {
+        write_all_fields(made.records);
         journal_.append(made);
         std::error_code code;
         if (task_.has_checkpoint && !made.records.empty())
           fs::remove(study::Checkpoints{folder_}.file(), code);
-        write_all_fields(made.records);
       }
 
       void write_all_fields(const study::Records &records) const
@@ -204,7 +195,6 @@ namespace plumbline::driver
     int run_tasks(const Task &task, const scene::Scene &scene, const method::Methods &methods,
                   Work &work)
     {
-      base::end_with_parent();
       work.journal().join();
       study::RunControl control = work.control();
       if (task.take_over)

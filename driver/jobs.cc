@@ -11,6 +11,41 @@
 
 namespace plumbline::driver
 {
+  namespace
+  {
+    /// Those of the command, so that they are read as it has read them: what is added stands
+    /// directly behind its name, where no other option can take it, or SCENE, for values of its
+    /// own.
+    std::vector<std::string> arguments_of_workers(const SceneOptions &options,
+                                                  const std::vector<std::string> &more)
+    {
+      std::vector<std::string> arguments = options.arguments, added = {"--worker"};
+      if (options.n_threads == 0)
+      {
+        const std::string option = "--threads",
+                          n = std::to_string(
+                              std::max(1u, std::thread::hardware_concurrency() / options.n_jobs));
+        bool is_given = false; // as 0: then it takes its place
+        for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--" && !is_given; ++i)
+          if (arguments[i] == option && i + 1 < arguments.size())
+          {
+            arguments[i + 1] = n;
+            is_given = true;
+          }
+          else if (arguments[i].rfind(option + "=", 0) == 0)
+          {
+            arguments[i] = option + "=" + n;
+            is_given = true;
+          }
+        if (!is_given)
+          added.insert(added.end(), {option, n});
+      }
+      added.insert(added.end(), more.begin(), more.end());
+      arguments.insert(arguments.begin() + 1, added.begin(), added.end());
+      return arguments;
+    }
+  } // namespace
+
   void check_jobs(const SceneOptions &options)
   {
     if (scene::is_read_once(options.scene_file))
@@ -23,14 +58,7 @@ namespace plumbline::driver
                       const std::string &task, const std::vector<std::string> &more,
                       base::ProgressLine *progress)
   {
-    std::vector<std::string> arguments = options.arguments;
-    arguments.emplace_back("--worker");
-    if (options.n_threads == 0)
-      arguments.insert(
-          arguments.end(),
-          {"--threads",
-           std::to_string(std::max(1u, std::thread::hardware_concurrency() / options.n_jobs))});
-    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::vector<std::string> arguments = arguments_of_workers(options, more);
     std::size_t n_waits = 0;
     const auto wait = [&](std::size_t n_done)
     {

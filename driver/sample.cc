@@ -96,7 +96,6 @@ namespace plumbline::driver
     /// What a worker does: samples whose numbers come from standard input.
     int take_samples(SampleOptions options, const SampleJournals &journals)
     {
-      base::end_with_parent();
       if (!options.growth_solver.empty())
         options.overrides.push_back({"Fracture/solver", options.growth_solver});
       const scene::Scene scene = read(options);

@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <thread>
@@ -22,11 +23,15 @@ namespace plumbline::base
 {
   namespace
   {
+    /// The environment variable with the number of the process that began this one.
+    constexpr const char *parent = "PLUMBLINE_PARENT";
+
     /// A number is written and read in one piece: pipes keep so few bytes together.
     constexpr std::size_t n_bytes = sizeof(std::uint64_t);
 
     /// Without what would make a process a rank of this one's run.
-    std::vector<char *> own_environment()
+    /// @param own  also in it
+    std::vector<char *> own_environment(std::string &own)
     {
       std::vector<char *> result;
       for (char **one = environ; *one != nullptr; ++one)
@@ -34,9 +39,10 @@ namespace plumbline::base
         const std::string text = *one;
         const bool is_of_ranks = text.rfind("OMPI_", 0) == 0 || text.rfind("PMIX_", 0) == 0 ||
                                  text.rfind("PMI_", 0) == 0 || text.rfind("PRTE_", 0) == 0;
-        if (!is_of_ranks)
+        if (!is_of_ranks && text.rfind(std::string(parent) + "=", 0) != 0)
           result.push_back(*one);
       }
+      result.push_back(own.data());
       result.push_back(nullptr);
       return result;
     }
@@ -88,7 +94,8 @@ namespace plumbline::base
       for (std::string &one : all)
         pointers.push_back(one.data());
       pointers.push_back(nullptr);
-      std::vector<char *> environment = own_environment();
+      std::string own = std::string(parent) + "=" + std::to_string(getpid());
+      std::vector<char *> environment = own_environment(own);
       posix_spawn_file_actions_t actions;
       posix_spawn_file_actions_init(&actions);
       posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
@@ -124,6 +131,9 @@ namespace plumbline::base
   void end_with_parent()
   {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    const char *const number = getenv(parent);
+    if (number != nullptr && std::to_string(getppid()) != number) // it had ended before
+      raise(SIGTERM);
   }
 
   std::vector<BadEnding> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,
@@ -164,9 +174,10 @@ namespace plumbline::base
           continue;
         endings.push_back(bad);
         // each has taken a task with it, so that there is an end to this, unless it never began one
-        if (bad.exit_code != 0)
+        constexpr int of_bad_input = 2;
+        if (bad.exit_code == of_bad_input)
           stop();
-        else if (endings.size() <= tasks.size())
+        else if (bad.exit_code == 0 && endings.size() <= tasks.size())
           processes.insert(begin(arguments, pipe.reading()));
       }
       std::this_thread::sleep_for(100ms);

@@ -12,7 +12,7 @@ namespace plumbline::base
   /// Of this process: the next number, until there are no more.
   bool next_task(std::uint64_t &number);
 
-  /// End with the process that began this one, however it ends.
+  /// End with the process that began this one, however it ends, or at once if it has ended.
   void end_with_parent();
 
   /// How a process ended that had not finished its task.
@@ -22,9 +22,9 @@ namespace plumbline::base
     int exit_code = 0; ///< 0: a signal ended it
   };
 
-  /// Run this command with other arguments in n processes that read tasks from standard input. If
-  /// a signal ends one, another replaces it; an exit code other than 0 ends all of them,
-  /// since the others would end in the same way.
+  /// Run this command with other arguments in n processes that read tasks from standard input. A
+  /// process that a signal ends is replaced; one that ends with an exit code other than 0 is not.
+  /// Exit code 2 (bad input) ends all of them, since the others would end in the same way.
   /// @param on_wait  called ten times a second with the number of finished tasks; false: end them
   /// now
   std::vector<BadEnding> work_off(const std::vector<std::uint64_t> &tasks, unsigned int n,

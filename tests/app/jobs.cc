@@ -106,6 +106,25 @@ TEST(Jobs, give_the_same_bits_as_one_process)
   }
 }
 
+TEST(Jobs, read_the_arguments_of_the_command_in_the_same_way)
+{
+  const std::string scene = std::string(PLUMBLINE_SCENES) + "/ipa_ac/scalar_delta_convergence.prm",
+                    set = " --quiet --methods FA --set Study/m=2 --set Expected/verdicts= --set "
+                          "Expected/errors= --set Study/h=0.25,0.125 ";
+  const fs::path folder = temporary("arguments");
+  const std::string base = "run --jobs 2 -o " + folder.string();
+  for (const std::string &command :
+       {base + set + scene,                  // the last value could take in SCENE
+        base + " --threads 0" + set + scene, // which workers are given a number for
+        base + set + "--threads=0 " + scene, base + set + "-- " + scene})
+  {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 0) << command << '\n' << outcome.err;
+    EXPECT_TRUE(read_json(folder / "results.json")["is_complete"]) << command;
+    fs::remove_all(folder);
+  }
+}
+
 TEST(Jobs, go_on_after_a_kill_and_an_interrupt_with_what_is_finished)
 {
   const fs::path folder = temporary("killed");
