@@ -2,6 +2,8 @@
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "base/first_rank.h"
+#include "base/number_text.h"
 #include "base/progress_line.h"
 #include "base/text_file.h"
 #include "check/body.h"
@@ -12,6 +14,7 @@
 #include "driver/interrupts.h"
 #include "driver/provenance.h"
 #include "driver/scene_input.h"
+#include "driver/writable.h"
 #include "io/output_folder.h"
 #include "io/record_journal.h"
 #include "physics/kernel.h"
@@ -105,6 +108,17 @@ namespace plumbline::driver
         throw InputError(given + " is for the files of one level; give names without {h}");
     }
 
+    void check_budget(const CheckOptions &options)
+    {
+      if (!options.budget)
+        return;
+      if (!(*options.budget > 0))
+        throw InputError("--budget = " + base::to_text(*options.budget, 6) +
+                         " is not positive; give CPU seconds of one level, or leave it out");
+      if (!check::is_series(options))
+        throw InputError("--budget is for a series of files; give names with {h}, or leave it out");
+    }
+
     /// Whether there are files.
     bool writes_files(const CheckOptions &options)
     {
@@ -148,7 +162,7 @@ namespace plumbline::driver
       base::ProgressLine progress(!options.quiet && ranks.rank() == 0);
       study::RunControl control;
       control.ranks = ranks;
-      control.budget = options.budget;
+      control.budget = options.budget.value_or(0);
       if (journal)
         control.earlier = journal->earlier();
       const auto n_known = static_cast<double>(control.earlier.records.size());
@@ -166,9 +180,8 @@ namespace plumbline::driver
         const study::Records &known = control.earlier.records;
         const auto is_known = [&](const study::Record &one)
         { return one.key == made.records.front().key; };
-        if (journal && ranks.rank() == 0 &&
-            (made.records.empty() || std::none_of(known.begin(), known.end(), is_known)))
-          journal->append(made);
+        if (journal && (made.records.empty() || std::none_of(known.begin(), known.end(), is_known)))
+          base::on_first_rank(ranks, [&] { journal->append(made); });
       };
       return check::find_series(files, reference::methods(), control);
     }
@@ -186,11 +199,14 @@ namespace plumbline::driver
       std::optional<io::OutputFolder> output;
       std::optional<io::RecordJournal> journal;
       if (has_files)
+      {
         output.emplace(folder, owner_of(scene), ranks);
+        base::on_first_rank(ranks, [&] { require_writable(folder / "check.json"); });
+      }
       if (const std::string subject = check::subject_of(files); has_files && !subject.empty())
         journal.emplace(folder / "check.jsonl", subject);
       const check::Series found = find_levels(files, options, journal);
-      const bool is_written = is_first && !found.results.records.empty();
+      const bool is_written = is_first && !(found.levels.empty() && found.levels_in_space.empty());
       if (is_written)
         print(
             options, [&] { return check::to_json(found, files, required); },
@@ -250,6 +266,7 @@ namespace plumbline::driver
                        scene.study.variable +
                        "; give it as Random/values, with another regime (and no Study/variable)");
     check_body_options(options, scene.domain.is_in_space());
+    check_budget(options);
     const fs::path folder = options.output.empty() ? fs::path("results") / ("check_" + scene.name)
                                                    : fs::path(options.output);
     if (check::is_series(options))

@@ -2,6 +2,8 @@
 
 #include "check/scene_findings.h"
 
+#include <optional>
+
 namespace plumbline::driver
 {
   struct CheckOptions : check::Input
@@ -10,7 +12,7 @@ namespace plumbline::driver
     std::vector<std::string> required; ///< see check::parse_requirements; empty: ac
     bool quiet = false, json = false;  ///< with either of them files are written with -o only
     bool pdf = false;                  ///< maps as PDF, besides SVG
-    double budget = 0;                 ///< of one level of a series [CPU s]; 0: any
+    std::optional<double> budget;      ///< of one level of a series [CPU s]; empty: any
   };
 
   /// Check quadrature weights of another code on its own nodes: moments, symmetry, matrix,

@@ -284,9 +284,10 @@ namespace plumbline::study
       void run_method(const Place &place, const Method &method, bool &is_begun)
       {
         Records own = take_earlier(place, method);
-        if (own.empty() && is_to_stop())
+        if ((own.empty() || analysis_.has_parts) && is_to_stop())
         {
           is_stopped_ = true;
+          std::move(own.begin(), own.end(), std::back_inserter(results_.records));
           return;
         }
         const bool is_due = own.empty() ? is_affordable(place, method) : analysis_.has_parts;

@@ -166,6 +166,21 @@ TEST_F(CheckSeries, leaves_out_levels_that_a_budget_does_not_allow)
   const auto json = read_json(out / "check.json");
   EXPECT_EQ(json["levels"].size(), 1u);
   EXPECT_EQ(json["study"]["left_out"].size(), sizes_.size() - 1);
+  check_all("--budget 1e9 -o " + out.string());
+  const auto all = read_json(out / "check.json");
+  EXPECT_EQ(all["levels"].size(), sizes_.size());
+  EXPECT_EQ(all["study"]["left_out"].size(), 0u);
+  for (const std::string budget : {"-3", "0"})
+  {
+    const Outcome refused = check_all("--budget " + budget);
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_found(refused.err, "--budget = " + budget +
+                                  " is not positive; give CPU seconds of one "
+                                  "level, or leave it out");
+  }
+  const Outcome alone = check(nodes_file, bonds_file, "--budget 1e9");
+  EXPECT_EQ(alone.exit_code, 2);
+  expect_found(alone.err, "--budget is for a series of files; give names with {h}");
 }
 
 TEST_F(CheckSeries, says_that_errors_stall)
