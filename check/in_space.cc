@@ -11,7 +11,7 @@ namespace plumbline::check
   {
     study::Record record;
     record.key.analysis = "check";
-    record.key.method = found.rule.empty() ? "given weights" : found.rule;
+    record.key.method = "given weights"; // whatever rule gives them: that of the loop over levels
     record.key.h = found.level.level.h;
     record.key.horizon = found.level.level.horizon;
     record.set("nodes", static_cast<double>(found.cells->n_free));
@@ -23,7 +23,10 @@ namespace plumbline::check
     record.set("median moment defect", found.moments.typical());
     record.set("imbalance of pairs", found.symmetry.imbalance);
     if (!found.rule.empty())
+    {
+      record.notes.push_back("the weights are those of " + found.rule);
       record.set("factor of the rule", found.rule_factor);
+    }
     for (const meshfree::ElasticRange &one : found.elastic)
     {
       record.set("least " + one.name, one.least);

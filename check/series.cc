@@ -1,6 +1,7 @@
 #include "check/series.h"
 
 #include "base/content_hash.h"
+#include "base/cost.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "check/files.h"
@@ -85,6 +86,19 @@ namespace plumbline::check
           records.push_back(std::move(record));
         }
       return records;
+    }
+
+    /// Of all that is done at a level: it decides whether the next one can be afforded. Records
+    /// that an interrupted check has left keep what it took.
+    /// @param made  that of the weights first
+    void set_cost(double seconds, study::Records &made)
+    {
+      for (const study::Record &record : made)
+        seconds = std::max(seconds, record.cost.seconds());
+      for (study::Record &record : made)
+        record.cost.setup_seconds = record.cost.solve_seconds = 0;
+      if (!made.empty())
+        made.front().cost.solve_seconds = seconds;
     }
 
     void conclude(const scene::Scene &scene, study::StudyResults &results)
@@ -238,6 +252,7 @@ namespace plumbline::check
     analysis.has_decisive_error = !files.scene.domain.is_in_space();
     analysis.begin = [&](const study::Place &place) // its errors end the study
     {
+      const base::CpuTimer timer;
       const scene::Scene scene = at_level_alone(files.scene, place.level());
       const Input &input = files.inputs[place.number()];
       if (scene.domain.is_in_space())
@@ -245,6 +260,7 @@ namespace plumbline::check
       else
         made = records_of(
             found.levels.emplace_back(find(scene, input, references, control.earlier.records)));
+      set_cost(timer.seconds(), made);
       for (study::Record &record : made)
       {
         record.key.series = place.series().name;

@@ -322,6 +322,13 @@ TEST_F(CheckInSpace, takes_a_series_of_files)
       EXPECT_NEAR(defect(level), is_right ? 0 : .0119, is_right ? 1e-12 : 5e-5);
     }
     EXPECT_NEAR(defect(0), defect(1), 1e-12);
+    const Outcome one = check(rule, false, options + " --budget 1e-9 --json", "_{h}.csv");
+    const Outcome all = check(rule, false, options + " --budget 1e9", "_{h}.csv");
+    EXPECT_EQ(all.out, outcome.out);
+    const auto json = parse_json(one.out);
+    EXPECT_EQ(json["levels"].size(), 1u);
+    ASSERT_EQ(json["study"]["left_out"].size(), 1u);
+    expect_found(json["study"]["left_out"][0], " CPU s"); // of what the level before it took
     const std::string table = read(folder_ / "out" / "levels.csv");
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   }
