@@ -81,13 +81,19 @@ namespace plumbline::check
           << " (to " << MomentCheck::tolerance << ")\n";
     }
 
+    bool is_isotropic(const std::string &modulus)
+    {
+      const std::array<std::string, 2> names = {"E", "nu"};
+      return std::find(names.begin(), names.end(), modulus) != names.end();
+    }
+
     /// One line for E and nu, before what a short summary cuts off.
     template <int dim>
     void tell_moduli(std::ostream &out, const Findings<dim> &found)
     {
       std::string text;
       for (const ElasticRange &one : found.elastic)
-        if (dim == 3 && (one.name == "E" || one.name == "nu"))
+        if (dim == 3 && is_isotropic(one.name))
           text += (text.empty() ? "" : ", ") + one.name + " = " + base::to_text(one.median, 4);
         else if (const std::size_t state = one.name.find(", plane"); state != std::string::npos)
         {

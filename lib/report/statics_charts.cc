@@ -289,7 +289,7 @@ namespace plumbline::report
     /// "" for xy: the only maps of a problem in the plane or on a line.
     std::string ending(const study::ErrorMap &map)
     {
-      return map.axes == "xy" ? "" : "-" + map.axes;
+      return map.axes == study::ErrorMap().axes ? "" : "-" + map.axes;
     }
 
     /// @param groups  see maps_by_axes()

@@ -351,7 +351,7 @@ namespace plumbline::study
           return own;
         take(results_.estimates, earlier_.estimates,
              [&](const ErrorEstimate &one)
-              { return one.method == method.name() && is_of(one, place); });
+             { return one.method == method.name() && is_of(one, place); });
         const auto is_drawn_here = [&](const auto &one) {
           return place.is_finest() && one.method == method.name() &&
                  one.series == place.series().name;

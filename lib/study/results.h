@@ -153,8 +153,8 @@ namespace plumbline::study
   };
 
   /// A solution in space at the finest level of the last problem and the first series, for pictures
-  /// of the whole body: the averages of u, of |u| if it is a vector, over every k-th cell along each
-  /// axis, at the centres of these cells.
+  /// of the whole body: the averages of u, of |u| if it is a vector, over every k-th cell along
+  /// each axis, at the centres of these cells.
   struct SolutionGrid
   {
     std::string method, problem, series;
