@@ -144,6 +144,7 @@ namespace plumbline::python
           {"(line ", "(index "},
           {check::where_lengths_are_given, ""},
           {"--bonds-are stiffness", "bonds_are=\"stiffness\""},
+          {"--bonds-are 'force constants'", "bonds_are=\"force constants\""},
           {"though Methods/names has that rule and not FA",
            "though rule names that one and not FA"},
           {"name the rule that is meant in Methods/names", "give rule, the one that is meant"},

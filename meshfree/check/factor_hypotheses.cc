@@ -267,6 +267,11 @@ namespace plumbline::meshfree
           {1 / std::pow(h, dim), "no volume",
            "all weights lack the " + cell + " of the neighbour's cell, h = " + base::to_text(h, 4),
            true},
+          {std::pow(h, dim), "volume twice",
+           "all weights contain the " + cell +
+               " of the neighbour's cell twice, h = " + base::to_text(h, 4) +
+               "; if they are force constants, choose --bonds-are 'force constants'",
+           true},
           {1 / constant, "no constant",
            "all weights lack the kernel's constant c = " + base::to_text(constant, 4) +
                ": the normalisation of the kernel is missing",

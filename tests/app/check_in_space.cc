@@ -416,8 +416,8 @@ namespace
          "cause: each pair of nodes is listed only once (a half list): list each bond both from i"},
         {"FA", "FA", false, stiffness,
          "like 1 - r/horizon, as the scene's kernel does: the weights already contain the kernel, "
-         "which is then applied twice; give volumes as weights, or, if the values are w C, say so "
-         "by --bonds-are stiffness",
+         "which is then applied twice; give volumes as weights, or, if the values are w C, choose "
+         "--bonds-are stiffness",
          3},
         {"FA", "FA", true, stiffness, "the weights already contain a kernel or influence", 3},
         {"FA", "FA", true,
@@ -473,6 +473,9 @@ namespace
             {"IPA-AC-R2", "IPA-AC-R2", true, times(-1), "cause: all weights have the wrong sign"},
             {"FA", "FA", true, times(1 / h), "cause: all weights are areas, h^2 in place of h^3"},
             {"FA", "FA", true, times(1 / (h * h * h)), "cause: all weights lack the volume h^3"},
+            {"FA", "FA", true, times(h * h * h),
+             "cause: all weights contain the volume h^3 of the neighbour's cell twice, h = 0.2; if "
+             "they are force constants, choose --bonds-are 'force constants'"},
             {"IPA-AC-R2", "IPA-AC-R2", false, times(1 / c),
              "cause: all weights lack the kernel's constant c = "},
             {"FA", "FA", true, times(4. * m / 3),
