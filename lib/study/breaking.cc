@@ -1,11 +1,11 @@
 #include "study/breaking.h"
 
-#include "analysis/checkpoint.h"
 #include "base/error.h"
 #include "base/number_text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -112,6 +112,7 @@ namespace plumbline::study
       analysis::EnergyLog log(transient, state, analysis::n_equal_steps(end - state.t, plan.step),
                               1);
       BreakingSample sample = history.samples.back();
+      std::vector<TimedBreaks> found;
       motion.changes = [&](const State &now)
       {
         if (plan.checkpoints.is_to_stop())
@@ -121,14 +122,12 @@ namespace plumbline::study
         if (breaks.bonds.empty())
           return false;
         sample.broken += breaks.energy;
-        history.breaks.push_back(std::move(breaks));
+        found.push_back(std::move(breaks));
         log.change(now);
         return true;
       };
-      history.n_steps +=
-          analysis::integrate(motion, analysis::scheme(plan.scheme),
-                              {plan.step, plan.critical_step, plan.shows_blow_up}, end, state)
-              .n_steps;
+      analysis::integrate(motion, analysis::scheme(plan.scheme),
+                          {plan.step, plan.critical_step, plan.shows_blow_up}, end, state);
       const double work = sample.work + log.samples().back().work,
                    dissipated = sample.dissipated + log.samples().back().dissipated;
       static_cast<analysis::Energies &>(sample) = transient.energies(state);
@@ -136,60 +135,42 @@ namespace plumbline::study
       sample.dissipated = dissipated;
       sample.drift = drift_of(driven, state.v);
       history.samples.push_back(sample);
+      std::move(found.begin(), found.end(), std::back_inserter(history.breaks));
     }
   } // namespace
 
   BreakingHistory run_breaking(DrivenBody &driven, const CrackPlan &plan,
                                const WriteBreaking &write)
   {
-    method::BreakingMotion &motion = *driven.body.motion;
-    const analysis::Transient transient(motion, driven.drive, driven.density, driven.damping);
+    method::BreakingMotion &body = *driven.body.motion;
+    const analysis::Transient transient(body, driven.drive, driven.density, driven.damping);
     BreakingHistory history;
-    history.last = {Vector(motion.size()), driven.velocity, 0};
-    const std::string file = plan.checkpoints.file().string();
-    const auto saved = analysis::read_checkpoint(file);
-    if (saved && saved->subject == plan.subject && saved->state.u.size() == motion.size())
+    history.last = {Vector(body.size()), driven.velocity, 0};
+    SampledMotion motion;
+    motion.resume = [&](const Vector &records)
     {
-      history = from_records(saved->records, driven.body.parts.bonds.size(), plan);
-      history.last = saved->state;
-      history.resumed_at = saved->state.t;
-      motion.restart(history.broken(saved->state.t));
-    }
-    const auto look = [&](unsigned int sample)
-    {
-      if (const auto frame = plan.frame(sample); frame && write)
-        write(*frame, plan.time(sample), history.last, history);
+      const State saved = history.last;
+      history = from_records(records, driven.body.parts.bonds.size(), plan);
+      history.last = saved;
+      history.resumed_at = saved.t;
+      body.restart(history.broken(saved.t));
     };
-    if (history.samples.empty())
+    motion.n_taken = [&] { return static_cast<unsigned int>(history.samples.size()); };
+    motion.begin = [&]
     {
       BreakingSample first;
       static_cast<analysis::Energies &>(first) = transient.energies(history.last);
       first.drift = drift_of(driven, history.last.v);
       history.samples.push_back(first);
-      look(0);
-    }
-    for (auto k = static_cast<unsigned int>(history.samples.size()); k <= plan.n_samples; ++k)
+    };
+    motion.advance = [&](double end) { advance(driven, transient, plan, end, history); };
+    motion.on_sample = [&](unsigned int sample)
     {
-      const State before = history.last;
-      const std::size_t n_breaks = history.breaks.size();
-      const auto write_checkpoint = [&] {
-        analysis::write_checkpoint(file, {plan.subject, history.last, to_records(history)});
-      };
-      try
-      {
-        advance(driven, transient, plan, plan.time(k), history);
-      }
-      catch (const Interrupted &) // goes on from the sample before
-      {
-        history.last = before;
-        history.breaks.resize(n_breaks);
-        write_checkpoint();
-        throw;
-      }
-      look(k);
-      if (k % plan.interval == 0 && k < plan.n_samples)
-        write_checkpoint();
-    }
+      if (const auto frame = plan.frame(sample); frame && write)
+        write(*frame, plan.time(sample), history.last, history);
+    };
+    motion.records = [&] { return to_records(history); };
+    run_samples(plan, history.last, motion);
     return history;
   }
 

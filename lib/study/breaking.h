@@ -36,7 +36,6 @@ namespace plumbline::study
     std::vector<BreakingSample> samples; ///< from t = 0
     std::vector<TimedBreaks> breaks;     ///< at the end of every step that had some
     State last;
-    std::uint64_t n_steps = 0;
     double resumed_at = 0;
 
     std::vector<std::size_t> broken(double until) const; ///< bonds, in the order of time

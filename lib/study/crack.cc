@@ -1,6 +1,6 @@
 #include "study/crack.h"
 
-#include "analysis/checkpoint.h"
+#include "analysis/integrate.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/number_text.h"
@@ -53,17 +53,6 @@ namespace plumbline::study
       return history;
     }
 
-    /// i if sample is the i-th of `intervals` even parts of all samples, rounded.
-    std::optional<unsigned int> part(unsigned int sample, unsigned int n_samples,
-                                     unsigned int intervals)
-    {
-      const double ratio = static_cast<double>(n_samples) / intervals;
-      const auto i = static_cast<unsigned int>(std::lround(sample / ratio));
-      if (static_cast<unsigned int>(std::lround(i * ratio)) == sample)
-        return i;
-      return {};
-    }
-
     CrackSample take_sample(const CrackModel &model, const State &state, const CrackView &view,
                             double dissipated)
     {
@@ -77,52 +66,13 @@ namespace plumbline::study
     }
   } // namespace
 
-  double CrackPlan::time(unsigned int sample) const
+  namespace
   {
-    return sample == n_samples ? final_time : final_time * sample / n_samples;
-  }
-
-  std::optional<unsigned int> CrackPlan::frame(unsigned int sample) const
-  {
-    if (n_frames == 0)
-      return {};
-    return part(sample, n_samples, n_frames);
-  }
-
-  std::optional<unsigned int> CrackPlan::moment(unsigned int sample) const
-  {
-    return part(sample, n_samples, n_crack_moments - 1);
-  }
-
-  CrackHistory run_crack(const CrackModel &model, const CrackPlan &plan,
-                         const WriteFrame &write_frame)
-  {
-    const std::size_t n_nodes = model.start.size() / 2;
-    State state{model.start, Vector(model.start.size()), 0};
-    CrackHistory history;
-    const std::string file = plan.checkpoints.file().string();
-    const auto saved = analysis::read_checkpoint(file);
-    if (saved && saved->subject == plan.subject && saved->state.u.size() == state.u.size())
+    /// @return  the energy that damping has dissipated on the way
+    double advance(const CrackModel &model, const CrackPlan &plan, double end, State &state,
+                   std::uint64_t &n_steps)
     {
-      history = from_records(saved->records, n_nodes, plan);
-      state = saved->state;
-      history.resumed_at = state.t;
-    }
-    const auto look = [&](unsigned int sample, double dissipated)
-    {
-      const CrackView view = model.view(state.u);
-      history.samples.push_back(take_sample(model, state, view, dissipated));
-      if (plan.moment(sample))
-        history.moments.push_back({state.t, view.damage});
-      if (const auto frame = plan.frame(sample); frame && write_frame)
-        write_frame(*frame, state, view);
-    };
-    if (history.samples.empty())
-      look(0, 0);
-    const auto &scheme = analysis::scheme(plan.scheme);
-    for (auto k = static_cast<unsigned int>(history.samples.size()); k <= plan.n_samples; ++k)
-    {
-      double dissipated = history.samples.back().dissipated;
+      double dissipated = 0;
       analysis::Observer observer;
       if (model.motion.damping > 0)
         observer = [&, before = State{{}, {}, state.t},
@@ -133,18 +83,50 @@ namespace plumbline::study
           before.t = now.t;
           rate = next;
         };
-      history.n_steps += analysis::integrate(model.motion, scheme,
-                                             {plan.step, plan.critical_step, plan.shows_blow_up},
-                                             plan.time(k), state, observer)
-                             .n_steps;
-      look(k, dissipated);
-      const bool is_to_stop = k < plan.n_samples && plan.checkpoints.is_to_stop();
-      if ((k % plan.interval == 0 && k < plan.n_samples) || is_to_stop)
-        analysis::write_checkpoint(file, {plan.subject, state, to_records(history)});
-      if (is_to_stop)
-        throw Interrupted();
+      n_steps += analysis::integrate(model.motion, analysis::scheme(plan.scheme),
+                                     {plan.step, plan.critical_step, plan.shows_blow_up}, end,
+                                     state, observer)
+                     .n_steps;
+      return dissipated;
     }
-    history.last = std::move(state);
+  } // namespace
+
+  CrackHistory run_crack(const CrackModel &model, const CrackPlan &plan,
+                         const WriteFrame &write_frame)
+  {
+    CrackHistory history;
+    State &state = history.last;
+    state = {model.start, Vector(model.start.size()), 0};
+    CrackView view;
+    const auto take = [&](double dissipated)
+    {
+      view = model.view(state.u);
+      history.samples.push_back(take_sample(model, state, view, dissipated));
+    };
+    SampledMotion motion;
+    motion.resume = [&](const Vector &records)
+    {
+      const State saved = state;
+      history = from_records(records, model.start.size() / 2, plan);
+      history.last = saved;
+      history.resumed_at = saved.t;
+    };
+    motion.n_taken = [&] { return static_cast<unsigned int>(history.samples.size()); };
+    motion.begin = [&] { take(0); };
+    motion.advance = [&](double end)
+    {
+      const double dissipated = history.samples.back().dissipated;
+      take(dissipated + advance(model, plan, end, state, history.n_steps));
+    };
+    motion.on_sample = [&](unsigned int sample)
+    {
+      if (plan.moment(sample))
+        history.moments.push_back({state.t, view.damage});
+      if (const auto frame = plan.frame(sample); frame && write_frame)
+        write_frame(*frame, state, view);
+    };
+    motion.records = [&] { return to_records(history); };
+    run_samples(plan, state, motion);
     return history;
   }
 

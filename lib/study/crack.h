@@ -1,10 +1,9 @@
 #pragma once
 
-#include "analysis/integrate.h"
 #include "base/cost.h"
 #include "method/dynamic_fracture_solver.h"
 #include "scene/scene.h"
-#include "study/analysis.h"
+#include "study/sampled_motion.h"
 
 #include <array>
 #include <functional>
@@ -15,9 +14,6 @@
 // How a crack moves through a strip: what is planned, run and found out.
 namespace plumbline::study
 {
-  using analysis::State;
-  using analysis::Vector;
-
   using method::CrackView;
 
   /// A strip as one side makes it.
@@ -56,31 +52,11 @@ namespace plumbline::study
     double resumed_at = 0;     ///< t of the checkpoint that it went on from, or 0
   };
 
-  constexpr unsigned int n_crack_moments = 6;
-
-  struct CrackPlan
-  {
-    double final_time = 0, step = 0, density = 1;
-    std::string scheme;
-    std::optional<double> critical_step;
-    bool shows_blow_up = false;
-    unsigned int n_samples = 6, n_frames = 0;
-    unsigned int interval = 1; ///< of checkpoints [samples]
-    std::string subject;       ///< of checkpoints: all that they depend on
-    Checkpoints checkpoints;
-
-    double time(unsigned int sample) const;
-    /// The number of the frame or moment at a sample, of n + 1 or n of them at even distances.
-    std::optional<unsigned int> frame(unsigned int sample) const;
-    std::optional<unsigned int> moment(unsigned int sample) const;
-  };
-
   /// Called at each frame, in order, also of the start.
   using WriteFrame =
       std::function<void(unsigned int frame, const State &state, const CrackView &view)>;
 
-  /// Move the strip, from the plan's checkpoint if there is one of the same subject, and write
-  /// checkpoints on the way: the result has the same bits wherever it was stopped.
+  /// Move the strip as run_samples() does.
   /// @throws InputError  a step that is refused, a checkpoint that cannot be read or written
   /// @throws NumericalError  as analysis::integrate; Interrupted
   CrackHistory run_crack(const CrackModel &model, const CrackPlan &plan,

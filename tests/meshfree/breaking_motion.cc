@@ -275,7 +275,8 @@ TEST(BreakingMotion, gives_the_same_bits_after_an_interrupt)
   const BreakingHistory whole = history_of(12, .004, "whole");
   CrackPlan stopped = plan(end, .004, 12, "stopped");
   unsigned int n = 0;
-  stopped.checkpoints.should_stop = [&] { return ++n == 7; };
+  // asked at each of the 11 steps to a sample, and then once: within the eighth sample
+  stopped.checkpoints.should_stop = [&] { return ++n == 7 * 12 + 5; };
   DrivenBody first = pulled_plate(fast), second = pulled_plate(fast);
   EXPECT_THROW(run_breaking(first, stopped), Interrupted);
   stopped.checkpoints.should_stop = {};
