@@ -271,7 +271,7 @@ TEST(Volumes, carry_a_factor_that_is_told_from_the_areas)
     }
   EXPECT_NE(unit_text(1e6).find("mm for m"), std::string::npos);
   EXPECT_NE(unit_text(1550.0031).find("inches for m"), std::string::npos);
-  EXPECT_NE(unit_text(.01).find("a plate 0.01 thick"), std::string::npos);
+  EXPECT_NE(unit_text(.01).find("a plate of thickness 0.01"), std::string::npos);
 }
 
 TEST(Volumes, of_bands_of_nodes_are_named_and_those_of_one_size_are_none)
