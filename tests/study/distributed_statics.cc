@@ -217,7 +217,8 @@ TEST(DistributedStatics, have_the_memory_of_their_rows_of_meshes_estimated)
     const double measured = static_cast<double>(results.records.front().cost.peak_bytes);
     const auto estimated = [&](unsigned int n_ranks)
     { return estimate_memory(scene, methods, 0, n_ranks).front().largest.bytes; };
-    EXPECT_LT(estimated(ranks.n_ranks()), 2 * measured) << name;
+    // halos are estimated from above, and on many ranks they are as large as the shares
+    EXPECT_LT(estimated(ranks.n_ranks()), (ranks.n_ranks() < 4 ? 2 : 2.5) * measured) << name;
     EXPECT_GT(estimated(ranks.n_ranks()), measured / 2) << name;
     // the cells stay, and of rows there are halos
     EXPECT_LT(estimated(4), .7 * estimated(1)) << name;
