@@ -12,13 +12,6 @@ namespace plumbline::report
   {
     using analysis::Curve;
 
-    const std::vector<double> &column(const Curve &curve, const std::string &name)
-    {
-      return std::find_if(curve.begin(), curve.end(),
-                          [&](const analysis::Column &one) { return one.name == name; })
-          ->values;
-    }
-
     Table numbers(const Record &record)
     {
       return quantity_table(
@@ -134,19 +127,6 @@ namespace plumbline::report
         fit_y(chart.plot);
       return chart;
     }
-
-    Picture moments(const Record &record)
-    {
-      std::vector<std::string> titles;
-      for (const double t : record.curves.at("moments")[0].values)
-        titles.push_back("t = " + rounded(t));
-      const char *const title = "Damage: broken bonds";
-      return {
-          "moments", title,
-          damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
-          "The fraction of each node's bonds that is broken or cut, on the undeformed body at six "
-          "times. Time/frames also writes the displacements, as VTU."};
-    }
   } // namespace
 
   bool is_of_breaking(const Record &record)
@@ -172,7 +152,15 @@ namespace plumbline::report
       charts.push_back(tip_chart(record));
     if (DataChart energies = energy_chart(record); !energies.plot.lines.empty())
       charts.push_back(std::move(energies));
-    view.galleries = {{"picture", "Results", "", std::move(charts), {moments(record)}}};
+    view.galleries = {
+        {"picture",
+         "Results",
+         "",
+         std::move(charts),
+         {damage_moments(
+             record, "Damage: broken bonds",
+             "The fraction of each node's bonds that is broken or cut, on the undeformed body at "
+             "six times. Time/frames also writes the displacements, as VTU.")}}};
     view.tables = {{"samples", table_of(record.curves.at("samples"))},
                    {"breaks", table_of(record.curves.at("breaks"))}};
     return view;

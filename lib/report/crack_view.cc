@@ -174,20 +174,6 @@ namespace plumbline::report
       fit_y(chart.plot);
       return chart;
     }
-
-    Picture moments(const Record &record)
-    {
-      std::vector<std::string> titles;
-      for (const double t : record.curves.at("moments")[0].values)
-        titles.push_back("t = " + rounded(t));
-      const char *const title = "Damage: softened bonds";
-      return {
-          "moments", title,
-          damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
-          "The fraction of each node's bonds that is softened or cut, on the undeformed body at "
-          "six times; the grips are above and below. Time/frames also writes the displacements, as "
-          "VTU."};
-    }
   } // namespace
 
   View crack_view(const StudyResults &results)
@@ -211,11 +197,15 @@ namespace plumbline::report
                   "crack " + outcome_of(record)};
     view.parts.insert(view.parts.begin(), {"numbers", "Numbers", "", numbers(record)});
     const analysis::Curve &samples = record.curves.at("samples");
-    view.galleries = {{"picture",
-                       "Results",
-                       "",
-                       {tip_chart(record, samples), speed_chart(record), energy_chart(samples)},
-                       {moments(record)}}};
+    view.galleries = {
+        {"picture",
+         "Results",
+         "",
+         {tip_chart(record, samples), speed_chart(record), energy_chart(samples)},
+         {damage_moments(record, "Damage: softened bonds",
+                         "The fraction of each node's bonds that is softened or cut, on the "
+                         "undeformed body at six times; the grips are above and below. Time/frames "
+                         "also writes the displacements, as VTU.")}}};
     view.tables = {{"samples", table_of(samples)}};
     return view;
   }

@@ -124,6 +124,17 @@ namespace plumbline::report
     return damage_script(maps, file, title, cells);
   }
 
+  Picture damage_moments(const study::Record &record, const std::string &title,
+                         const std::string &caption)
+  {
+    std::vector<std::string> titles;
+    for (const double t : record.curves.at("moments")[0].values)
+      titles.push_back("t = " + rounded(t));
+    return {"moments", title,
+            damage_script(record.fields.at("damage"), record.key.h, titles, "moments.svg", title),
+            caption};
+  }
+
   void sharpen(const std::filesystem::path &picture)
   {
     std::ifstream in(picture, std::ios::binary);

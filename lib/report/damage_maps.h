@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/record.h"
+#include "report/view.h"
 
 #include <array>
 #include <filesystem>
@@ -56,6 +56,10 @@ namespace plumbline::report
   std::string damage_script(const analysis::PointField &field, double h,
                             const std::vector<std::string> &titles, const std::string &file,
                             const std::string &title);
+
+  /// The damage of a record at its moments, see CrackPlan::moment.
+  Picture damage_moments(const study::Record &record, const std::string &title,
+                         const std::string &caption);
 
   /// Blocks of a picture with sharp edges, see with_sharp_blocks.
   void sharpen(const std::filesystem::path &picture);

@@ -14,13 +14,6 @@ namespace plumbline::report
   {
     using analysis::Curve;
 
-    const std::vector<double> &column(const Curve &curve, const std::string &name)
-    {
-      return std::find_if(curve.begin(), curve.end(),
-                          [&](const analysis::Column &one) { return one.name == name; })
-          ->values;
-    }
-
     /// That break in the first event.
     std::size_t first_bonds(const Record &record)
     {

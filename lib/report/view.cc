@@ -107,6 +107,13 @@ namespace plumbline::report
                      { return !record.failure.empty() && (!is_shown || is_shown(record)); })};
   }
 
+  const std::vector<double> &column(const analysis::Curve &curve, const std::string &name)
+  {
+    return std::find_if(curve.begin(), curve.end(),
+                        [&](const analysis::Column &one) { return one.name == name; })
+        ->values;
+  }
+
   Table table_of(const analysis::Curve &curve)
   {
     Table table;

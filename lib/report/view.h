@@ -98,6 +98,9 @@ namespace plumbline::report
   };
   Table table_of(const analysis::Curve &curve);
 
+  /// @pre the curve has a column of this name
+  const std::vector<double> &column(const analysis::Curve &curve, const std::string &name);
+
   /// Charts or pictures under a heading.
   struct Gallery
   {

@@ -176,7 +176,7 @@ namespace plumbline::study
 
   double energy_imbalance(const std::vector<BreakingSample> &samples)
   {
-    constexpr double rounding = 1e-10; // of what moves as a whole: its own error is far below
+    constexpr double rounding = 1e-10; // of rigid-body motion: its own error is far below
     double largest = 0, size = 0;
     for (const BreakingSample &now : samples)
     {
@@ -213,7 +213,7 @@ namespace plumbline::study
       throw InputError("Time/steps = " + base::to_text(longest, 8) +
                        " does not divide Time/final time / " + std::to_string(n_samples) + " = " +
                        base::to_text(interval, 8) +
-                       ", the time between two records of a body in motion, into whole steps; "
+                       ", the time between two records of the run, into whole steps; "
                        "write " +
                        shorter + longer);
     }

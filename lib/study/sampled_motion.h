@@ -32,7 +32,7 @@ namespace plumbline::study
     std::optional<unsigned int> moment(unsigned int sample) const;
   };
 
-  /// What moves and is recorded, without its state.
+  /// A motion and the records of it, without its state.
   struct SampledMotion
   {
     std::function<void(const Vector &records)> resume; ///< the state is the checkpoint's already

@@ -67,6 +67,18 @@ namespace plumbline::reference
     area_ = .5 * cross_product_3d(vertices[1] - vertices[0], vertices[2] - vertices[0]).norm();
   }
 
+  geometry::Cuboid PairFace::box() const
+  {
+    geometry::Cuboid box{vertices_[0], vertices_[0]};
+    for (const dealii::Point<3> &vertex : vertices_)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        box.lower[d] = std::min(box.lower[d], vertex[d]);
+        box.upper[d] = std::max(box.upper[d], vertex[d]);
+      }
+    return box;
+  }
+
   bool are_out_of_reach(const PairFace &f, const PairFace &g)
   {
     const dealii::Tensor<1, 3> line = g.centre() - f.centre();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/cube_lattice.h"
 #include "reference/tetrahedra/face_potential.h"
 
 #include <deal.II/base/point.h>
@@ -22,6 +23,7 @@ namespace plumbline::reference
     const dealii::Point<3> &centre() const { return centre_; }
     double radius() const { return radius_; } ///< about the centre, of a ball that holds it
     double area() const { return area_; }
+    geometry::Cuboid box() const; ///< along the axes
 
   private:
     Vertices vertices_;

@@ -115,17 +115,7 @@ namespace plumbline::reference
     {
       std::vector<geometry::Cuboid> boxes;
       for (const JumpFace &face : faces)
-      {
-        const auto &x = face.face.vertices();
-        geometry::Cuboid box{x[0], x[0]};
-        for (const Point<3> &vertex : x)
-          for (unsigned int d = 0; d < 3; ++d)
-          {
-            box.lower[d] = std::min(box.lower[d], vertex[d]);
-            box.upper[d] = std::max(box.upper[d], vertex[d]);
-          }
-        boxes.push_back(box);
-      }
+        boxes.push_back(face.face.box());
       return boxes;
     }
 

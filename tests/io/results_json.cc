@@ -34,6 +34,25 @@ namespace plumbline::io
       std::ofstream(file, std::ios::binary) << text;
     }
 
+    /// Of 2 x 1 x 3 cells.
+    study::SolutionGrid solution_grid(const std::vector<double> &values)
+    {
+      study::SolutionGrid grid;
+      grid.method = "Q1";
+      grid.problem = "case1";
+      grid.series = "m = 3";
+      grid.h = .1;
+      grid.horizon = .3;
+      grid.lower = {1, 2, 3};
+      grid.upper = {2, 3, 4};
+      grid.first = {1.1, 2.1, 3.1};
+      grid.spacing = .2;
+      grid.n = {2, 1, 3};
+      grid.n_components = 3;
+      grid.values = values;
+      return grid;
+    }
+
     void write_json(const study::StudyResults &results, const std::filesystem::path &file)
     {
       base::write_file(file, to_json(results));
@@ -47,18 +66,7 @@ namespace plumbline::io
     results.maps[0].n_components = 2;
     results.maps[0].solution.assign(results.maps[0].values.size(), -1. / 3);
     results.maps[1].axes = "xz";
-    results.solution_grids.push_back({"Q1",
-                                      "case1",
-                                      "m = 3",
-                                      .1,
-                                      .3,
-                                      {1, 2, 3},
-                                      {2, 3, 4},
-                                      {1.1, 2.1, 3.1},
-                                      .2,
-                                      {2, 1, 3},
-                                      3,
-                                      {0, 1, 2, 1. / 3, 4, 5}});
+    results.solution_grids.push_back(solution_grid({0, 1, 2, 1. / 3, 4, 5}));
     write_json(results, folder.path() / "a.json");
     const study::StudyResults back = read_results(folder.path() / "a.json");
 
@@ -272,18 +280,7 @@ namespace plumbline::io
     damaged("\"upper\": [\n    2", "\"upper\": [\n    0");
     expect("maps[0] has an upper corner that is not above and right of the lower one");
     study::StudyResults in_space = fixture::results();
-    in_space.solution_grids.push_back({"Q1",
-                                       "case1",
-                                       "m = 3",
-                                       .1,
-                                       .3,
-                                       {1, 2, 3},
-                                       {2, 3, 4},
-                                       {1.1, 2.1, 3.1},
-                                       .2,
-                                       {2, 1, 3},
-                                       1,
-                                       {0, 1, 2}});
+    in_space.solution_grids.push_back(solution_grid({0, 1, 2}));
     write_json(in_space, file);
     expect("solution_grids[0].values has 3 numbers, not n_x * n_y * n_z = 6");
     damaged("\"target\": 0.01", "\"target\": null");

@@ -192,7 +192,7 @@ TEST(TetrahedronPairs, by_faces_are_those_by_edges_and_vertices)
   expect_equal(11); // 198 in all
 }
 
-// 10,080 pairs; a minute or two of one core.
+// 10,080 pairs; a minute or two of one core, in benchmarks/audit.
 TEST(TetrahedronPairs, DISABLED_by_faces_are_those_by_edges_and_vertices_many)
 {
   expect_equal(560);
