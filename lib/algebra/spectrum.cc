@@ -1,5 +1,6 @@
 #include "algebra/spectrum.h"
 
+#include "algebra/asymmetry.h"
 #include "base/error.h"
 #include "base/symmetric_eigen.h"
 
@@ -206,14 +207,6 @@ namespace plumbline::algebra
       }
       return is_reached.size() - n_reached;
     }
-
-    double largest(const std::vector<double> &values)
-    {
-      double result = 0;
-      for (const double value : values)
-        result = std::max(result, std::abs(value));
-      return result;
-    }
   } // namespace
 
   Spectrum spectrum(const Action &symmetric, std::size_t n, double tolerance)
@@ -277,11 +270,7 @@ namespace plumbline::algebra
       is_strict[i] = static_cast<char>(diagonal > others + rounding * sum);
     }
     const CsrMatrix columns = transpose(rows);
-    CsrMatrix negative = columns;
-    for (double &value : negative.value)
-      value = -value;
-    const double size = largest(rows.value);
-    check.asymmetry = size > 0 ? largest(add(rows, negative).value) / size : 0;
+    check.asymmetry = asymmetry(rows);
     check.n_parts = count_parts(rows);
     check.n_loose = count_unreached(columns, is_strict);
     return check;

@@ -74,7 +74,7 @@ namespace plumbline::method
   void SparseDiscretisation::set_rows(PartitionedRows rows)
   {
     free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
-    constrained_ = std::move(rows.constrained);
+    constrained_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.constrained));
   }
 
   std::unique_ptr<algebra::LinearSystem> SparseDiscretisation::tangent() const

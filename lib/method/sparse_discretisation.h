@@ -39,12 +39,12 @@ namespace plumbline::method
 
   protected:
     void set_rows(PartitionedRows rows);
-    const algebra::CsrMatrix &free() const { return *free_; }
-    const algebra::CsrMatrix &constrained() const { return constrained_; }
+    const std::shared_ptr<const algebra::CsrMatrix> &free() const { return free_; }
+    const std::shared_ptr<const algebra::CsrMatrix> &constrained() const { return constrained_; }
 
   private:
-    std::shared_ptr<const algebra::CsrMatrix> free_ = std::make_shared<algebra::CsrMatrix>();
-    algebra::CsrMatrix constrained_;
+    std::shared_ptr<const algebra::CsrMatrix> free_ = std::make_shared<algebra::CsrMatrix>(),
+                                              constrained_ = free_;
     algebra::SparseOptions options_;
     base::Communicator communicator_;
   };

@@ -1,7 +1,7 @@
 #include "method/sparse_motion.h"
 
+#include "algebra/asymmetry.h"
 #include "algebra/block_rows.h"
-#include "algebra/spectrum.h"
 
 #include <deal.II/base/parallel.h>
 #include <deal.II/lac/vector.h>
@@ -18,9 +18,10 @@ namespace plumbline::method
 
     constexpr unsigned int grain = 512; // rows, worth a thread's while
 
-    algebra::Action action_of(const algebra::CsrMatrix &rows, unsigned int n_components)
+    algebra::Action action_of(const std::shared_ptr<const algebra::CsrMatrix> &rows,
+                              unsigned int n_components)
     {
-      if (auto blocks = algebra::BlockRows::make(rows, n_components))
+      if (auto blocks = algebra::BlockRows::make(*rows, n_components))
         return [n_components, by = std::make_shared<const algebra::BlockRows>(std::move(*blocks))](
                    const State &x, State &y)
         {
@@ -30,18 +31,18 @@ namespace plumbline::method
               [&](std::size_t from, std::size_t to) { by->vmult(x.data(), y.data(), from, to); },
               grain / 2);
         };
-      return [&rows](const State &x, State &y)
+      return [rows](const State &x, State &y)
       {
-        y.resize(rows.n_rows());
+        y.resize(rows->n_rows());
         dealii::parallel::apply_to_subranges(
-            static_cast<std::size_t>(0), rows.n_rows(),
+            static_cast<std::size_t>(0), rows->n_rows(),
             [&](std::size_t from, std::size_t to)
             {
               for (std::size_t i = from; i < to; ++i)
               {
                 double sum = 0;
-                for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-                  sum += rows.value[k] * x[rows.column[k]];
+                for (std::size_t k = rows->start[i]; k < rows->start[i + 1]; ++k)
+                  sum += rows->value[k] * x[rows->column[k]];
                 y[i] = sum;
               }
             },
@@ -49,20 +50,14 @@ namespace plumbline::method
       };
     }
 
-    /// Rows of another matrix with a life of their own.
-    algebra::Action action_of(algebra::CsrMatrix &&rows, unsigned int n_components)
-    {
-      const auto own = std::make_shared<const algebra::CsrMatrix>(std::move(rows));
-      return [own, act = action_of(*own, n_components)](const State &x, State &y) { act(x, y); };
-    }
-
-    bool is_symmetric(const SparseParts &parts)
+    bool is_symmetric(const algebra::CsrMatrix &rows)
     {
       constexpr double rounding = 1e-12;
-      return algebra::check_signs(parts.stiffness).asymmetry <= rounding;
+      return algebra::asymmetry(rows) <= rounding;
     }
 
-    MassRoot mass_root(const SparseParts &parts)
+    template <int dim>
+    MassRoot mass_root(const SparseParts<dim> &parts)
     {
       if (parts.masses.empty())
         return MassRoot(parts.mass.free);
@@ -78,34 +73,42 @@ namespace plumbline::method
     }
   } // namespace
 
-  std::unique_ptr<EquationOfMotion> move_by_rows(SparseParts given)
+  template <int dim>
+  std::unique_ptr<MotionOf<dim>> move_by_rows(SparseParts<dim> given)
   {
-    const auto parts = std::make_shared<const SparseParts>(std::move(given));
-    const auto load = [parts](const problem::Problem<2> &instant)
+    const auto stiffness = std::move(given.stiffness);
+    const auto parts = std::make_shared<const SparseParts<dim>>(std::move(given));
+    const auto load = [parts](const problem::Problem<dim> &instant)
     {
       Vector load = parts->load(instant);
-      subtract_constrained(parts->constrained, parts->around(instant), load);
+      subtract_constrained(*parts->constrained, parts->around(instant), load);
       return values(load);
     };
-    const auto inertia = [parts](const problem::Problem<2> &instant)
+    const auto inertia = [parts](const problem::Problem<dim> &instant)
     {
-      problem::Problem<2> of_solution = instant;
+      problem::Problem<dim> of_solution = instant;
       of_solution.load = *instant.solution;
       Vector load = parts->load(of_solution);
       if (parts->masses.empty())
         subtract_constrained(parts->mass.constrained, parts->around(instant), load);
       return values(load);
     };
-    return move_linear<2>({parts->nodes,
-                           parts->n_components,
-                           {},
-                           mass_root(*parts),
-                           action_of(parts->stiffness, parts->n_components),
-                           is_symmetric(*parts) ? algebra::Action()
-                                                : action_of(algebra::transpose(parts->stiffness),
-                                                            parts->n_components),
-                           load,
-                           inertia,
-                           1});
+    algebra::Action transposed;
+    if (!is_symmetric(*stiffness))
+      transposed =
+          action_of(std::make_shared<const algebra::CsrMatrix>(algebra::transpose(*stiffness)),
+                    parts->n_components);
+    return move_linear<dim>({parts->nodes,
+                             parts->n_components,
+                             {},
+                             mass_root(*parts),
+                             action_of(stiffness, parts->n_components),
+                             transposed,
+                             load,
+                             inertia,
+                             1});
   }
+
+  template std::unique_ptr<MotionOf<2>> move_by_rows(SparseParts<2>);
+  template std::unique_ptr<MotionOf<3>> move_by_rows(SparseParts<3>);
 } // namespace plumbline::method

@@ -66,8 +66,6 @@ namespace plumbline::scene
       const std::string remedy = ", or Methods/nodes = centres and Methods/perturbation = 0";
       needs(!scene.has_dilatation(), scattered + "Material/model = " + scene.material.model->name(),
             "write bond-based" + remedy);
-      needs(!scene.time.is_dynamic(), scattered + "a transient analysis",
-            "write Time/final time = 0" + remedy);
     }
 
     void check_fracture_in_space(const Scene &scene)

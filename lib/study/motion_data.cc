@@ -85,9 +85,11 @@ namespace plumbline::study
 
     problem::Problem<3> problem_at(const scene::Scene &scene, unsigned int case_index,
                                    const problem::Level &level, double t,
-                                   const problem::Field<3> *known_load, const problem::Problem<3> *)
+                                   const problem::Field<3> *known_load,
+                                   const problem::Problem<3> *same_place)
     {
-      return make_problem_in_space(scene, case_index, level, t, known_load);
+      return make_problem_in_space(scene, case_index, level, t, known_load,
+                                   same_place != nullptr ? same_place->cells : nullptr);
     }
 
     problem::Field<2> nothing(const problem::Problem<2> &)

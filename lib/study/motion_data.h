@@ -29,10 +29,14 @@ namespace plumbline::study
 
     const problem::Problem<dim> &at(double t);
 
-    /// Those of another mesh size at the same horizon.
+    /// Those of another mesh size at the same horizon, for Galerkin methods: in space they have no
+    /// scattered nodes.
     ProblemsInTime resized(double h) const
     {
-      return {scene_, case_index_, {h, level_.horizon}, loads_};
+      scene::Scene scene = scene_;
+      if (dim == 3)
+        scene.methods.nodes = {};
+      return {scene, case_index_, {h, level_.horizon}, loads_};
     }
 
     /// How many Chebyshev points in time the expressions take that change in it, by their values at
@@ -43,7 +47,7 @@ namespace plumbline::study
     double seconds() const { return seconds_; } ///< CPU that making them took
 
   private:
-    const scene::Scene &scene_;
+    scene::Scene scene_;
     unsigned int case_index_;
     problem::Level level_;
     Loads &loads_;

@@ -115,10 +115,13 @@ namespace plumbline::study
     const auto check_level = [&](const problem::Level &level)
     {
       const scene::Scene here = at_level(scene, level);
-      for (const auto &method : methods)
-        here.domain.is_in_space()
-            ? check_steps(here, *method, make_problem_in_space(here, 0, level), ranks)
-            : check_steps(here, *method, make_problem(here, 0, level), ranks);
+      const auto check = [&](const auto &problem)
+      {
+        for (const auto &method : methods)
+          check_steps(here, *method, problem, ranks);
+      };
+      here.domain.is_in_space() ? check(make_problem_in_space(here, 0, level))
+                                : check(make_problem(here, 0, level));
     };
     if (!scene.is_steady()) // else it would be said when much is done
       scene.domain.is_in_space() ? check_times<3>(scene) : check_times<2>(scene);

@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "meshfree/scattered/double_well_motion.h"
 #include "meshfree/scattered/field.h"
+#include "meshfree/scattered/motion.h"
 #include "meshfree/scattered/state_based_operator.h"
 #include "method/lattice_discretisation.h"
 #include "method/limit_proof.h"
-#include "method/sparse_motion.h"
 #include "problem/damage.h"
 
 #include <deal.II/lac/vector.h>
@@ -77,7 +77,7 @@ namespace plumbline::meshfree
         return {n_components_,
                 cells_->nodes,
                 cells_->n_free,
-                method::join(free(), constrained()),
+                method::join(*free(), *constrained()),
                 {load.begin(), load.end()},
                 collar(problem),
                 masses()};
@@ -89,33 +89,17 @@ namespace plumbline::meshfree
         result.n_components = n_components_;
         result.nodes = free_nodes();
         result.mass = masses();
-        result.rows = by_volumes(free());
+        result.rows = by_volumes(*free(), *cells_, n_components_);
         return result;
       }
 
-      /// Equations are stated at nodes; by volumes they are the balance of forces on cells.
       std::unique_ptr<method::EquationOfMotion> motion(bool) const override
       {
         if (is_mixed_)
           return nullptr;
-        if (moving_.free.start.empty())
-          moving_ = {by_volumes(free()), by_volumes(constrained())};
-        return method::move_by_rows({free_nodes(),
-                                     n_components_,
-                                     moving_.free,
-                                     moving_.constrained,
-                                     masses(),
-                                     {},
-                                     [this](const problem::Problem<2> &instant)
-                                     {
-                                       Vector load(static_cast<unsigned int>(n_unknowns()));
-                                       add_load(instant, load);
-                                       for (std::size_t i = 0; i < load.size(); ++i)
-                                         load[i] *= cells_->area[i / n_components_];
-                                       return load;
-                                     },
-                                     [this](const problem::Problem<2> &instant)
-                                     { return collar(instant); }});
+        return move_nodes<2>(cells_, n_components_, *free(), *constrained(),
+                             [this](const problem::Problem<2> &instant)
+                             { return collar(instant); });
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }
@@ -125,7 +109,7 @@ namespace plumbline::meshfree
       void add_data(const problem::Problem<2> &problem, Vector &load) const
       {
         add_load(problem, load);
-        method::subtract_constrained(constrained(), collar(problem), load);
+        method::subtract_constrained(*constrained(), collar(problem), load);
       }
 
       void add_load(const problem::Problem<2> &problem, Vector &load) const
@@ -195,14 +179,6 @@ namespace plumbline::meshfree
         return {cells_->area.begin(), cells_->area.begin() + n};
       }
 
-      algebra::CsrMatrix by_volumes(algebra::CsrMatrix rows) const
-      {
-        for (std::size_t i = 0; i < rows.n_rows(); ++i)
-          for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-            rows.value[k] *= cells_->area[i / n_components_];
-        return rows;
-      }
-
       method::Field field(const Vector &u) const
       {
         const auto n = static_cast<std::ptrdiff_t>(cells_->n_free);
@@ -220,8 +196,7 @@ namespace plumbline::meshfree
       std::shared_ptr<const geometry::NodeCells<2>> cells_;
       unsigned int n_components_;
       bool is_mixed_;
-      mutable method::PartitionedRows moving_; ///< rows by volumes, once there is a motion
-      std::vector<char> is_ghost_;             ///< of each node, or empty
+      std::vector<char> is_ghost_; ///< of each node, or empty
       std::vector<TipRows> tips_;
       method::Diagnostics diagnostics_;
     };

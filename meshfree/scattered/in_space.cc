@@ -1,6 +1,7 @@
 #include "meshfree/discretisations.h"
 #include "meshfree/rules/families.h"
 #include "meshfree/scattered/field.h"
+#include "meshfree/scattered/motion.h"
 #include "method/limit_proof.h"
 
 #include <deal.II/lac/vector.h>
@@ -72,6 +73,13 @@ namespace plumbline::meshfree
       {
         return std::make_unique<algebra::SparseSystem>(free_, options_,
                                                        base::Communicator::alone());
+      }
+
+      std::unique_ptr<method::MotionOf<3>> motion(bool) const override
+      {
+        return move_nodes<3>(cells_, n_components_, *free_, constrained_,
+                             [this](const problem::Problem<3> &instant)
+                             { return constraint_values(instant); });
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }

@@ -156,7 +156,7 @@ namespace plumbline::reference
               constrained_data = constrained_values(problem, *space_);
               result.load = load_vector(problem, *space_, *cells_, communicator());
             });
-        method::subtract_constrained(constrained(), constrained_data, result.load);
+        method::subtract_constrained(*constrained(), constrained_data, result.load);
         const auto around =
             std::make_shared<const std::vector<double>>(std::move(constrained_data));
         result.field = [this, around](const Vector &u) {
@@ -174,7 +174,7 @@ namespace plumbline::reference
         for (std::size_t dof = 0; dof < space_->n_dofs(); ++dof)
           result.nodes.push_back(space_->support(dof));
         result.n_free = space_->n_free();
-        result.rows = method::join(free(), constrained());
+        result.rows = method::join(*free(), *constrained());
         const Vector load = load_vector(problem, *space_, *cells_, communicator());
         result.load.assign(load.begin(), load.end());
         result.constraint = constrained_values(problem, *space_);
@@ -190,7 +190,7 @@ namespace plumbline::reference
         for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
           result.nodes.push_back(space_->support(dof));
         result.mass = lumped_masses(*space_, *cells_);
-        result.rows = free();
+        result.rows = *free();
         return result;
       }
 
@@ -203,7 +203,7 @@ namespace plumbline::reference
         if (!is_lumped)
           mass = method::part(mass_rows(*space_, *cells_, problem_.n_components),
                               space_->n_free() * problem_.n_components);
-        return method::move_by_rows(
+        return method::move_by_rows<2>(
             {nodes, problem_.n_components, free(), constrained(),
              is_lumped ? lumped_masses(*space_, *cells_) : std::vector<double>(), std::move(mass),
              [this](const problem::Problem<2> &instant)
@@ -268,7 +268,7 @@ namespace plumbline::reference
             problem_.damage.is_there() || (problem_.coefficient && !is_exact_))
           return;
         const EntryCheck check =
-            check_entries(*space_, *cells_, problem_.kernel, problem_.coefficient, free(),
+            check_entries(*space_, *cells_, problem_.kernel, problem_.coefficient, *free(),
                           geometry.n_checks, geometry.seed);
         if (check.n_entries == 0)
           return;

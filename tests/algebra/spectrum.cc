@@ -1,4 +1,6 @@
 #include "algebra/spectrum.h"
+
+#include "algebra/asymmetry.h"
 #include "algebra/sparse.h"
 #include "base/error.h"
 #include "base/symmetric_eigen.h"
@@ -7,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 using namespace plumbline;
 using namespace plumbline::algebra;
@@ -171,6 +176,28 @@ TEST(SignCheck, knows_m_matrices)
   EXPECT_EQ(check_signs(to_rows({{2, 1}, {-1, 2}})).n_positive, 1u);
   EXPECT_EQ(check_signs(to_rows({{1, -2}, {-2, 1}})).n_weak, 2u);
   EXPECT_DOUBLE_EQ(check_signs(to_rows({{2, 1}, {-1, 2}})).asymmetry, 1);
+}
+
+TEST(SignCheck, finds_the_asymmetry_of_entries_without_partners)
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int sample = 0; sample < 50; ++sample)
+  {
+    constexpr unsigned int n = 6;
+    std::vector<std::vector<double>> matrix(n, std::vector<double>(n));
+    for (auto &row : matrix)
+      for (double &value : row)
+        value = uniform(random) < .4 ? uniform(random) : 0;
+    double size = 0, difference = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        size = std::max(size, std::abs(matrix[i][j]));
+        difference = std::max(difference, std::abs(matrix[i][j] - matrix[j][i]));
+      }
+    EXPECT_EQ(asymmetry(to_rows(matrix)), size > 0 ? difference / size : 0);
+  }
 }
 
 TEST(SignCheck, takes_rounding_for_zero)

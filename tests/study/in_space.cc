@@ -601,8 +601,6 @@ TEST(ScatteredNodesInSpace, that_cannot_be_used_are_refused)
   expect({{"Methods/nodes", "cetres"}}, {"'cetres' is not known"});
   expect({{"Methods/perturbation", "0.5"}}, {"Methods/perturbation", "0.5"});
   expect(with(lps, {{"Methods/perturbation", "0.3"}}), {"Methods/perturbation", "LPS"});
-  expect({{"Methods/perturbation", "0.3"}, {"Time/final time", "1"}, {"Time/steps", "0.1"}},
-         {"Methods/perturbation", "transient"});
   expect({{"Methods/nodes", write_centres(folder, .2)}, {"Study/h", "1/8"}},
          {"nodes.csv", "nodes end at x = -0.1875", "one horizon (0.375)"});
   expect({{"Methods/nodes", (folder.path() / "none.csv").string()}}, {"none.csv"});
