@@ -2,6 +2,7 @@
 
 #include "meshfree/rules/families.h"
 #include "geometry/ball_cell.h"
+#include "geometry/ball_polyhedron.h"
 #include "geometry/mesh_input.h"
 #include "meshfree/rules/rules.h"
 #include "parts.h"
@@ -41,6 +42,43 @@ namespace plumbline::benchmarks
       for (auto _ : state)
         benchmark::DoNotOptimize(
             geometry::intersect(ball, geometry::view(cells[i++ % cells.size()]), backend).area);
+      count(state, "calls", 1);
+    }
+
+    /// The cube of size 1 or, sheared by next to nothing, any polyhedron, which spheres of a
+    /// radius, the argument in tenths, cut at random: volume and centroid.
+    void intersect_solid(benchmark::State &state, bool is_box)
+    {
+      const double radius = static_cast<double>(state.range(0)) / 10, shear = is_box ? 0 : 1e-7;
+      const geometry::ConvexPolyhedron cube = geometry::ConvexPolyhedron::box({}, {1, 1, 1});
+      auto vertices = cube.vertices();
+      std::vector<geometry::ConvexPolyhedron::Indices> faces;
+      for (const auto &face : cube.faces())
+        faces.push_back(face.vertices);
+      for (auto &x : vertices)
+        x[0] += shear * x[1];
+      const geometry::ConvexPolyhedron cell(vertices, faces);
+      std::mt19937 random(1);
+      std::uniform_real_distribution<double> place(0, 1);
+      std::normal_distribution<double> direction;
+      std::vector<geometry::SolidBall> balls;
+      while (balls.size() < 4096)
+      {
+        dealii::Point<3> centre;
+        dealii::Tensor<1, 3> way;
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          centre[k] = place(random);
+          way[k] = direction(random);
+        }
+        const geometry::SolidBall ball{centre + radius / way.norm() * way, radius};
+        const double volume = geometry::intersect(ball, cell, 0).volume;
+        if (volume > 0 && volume < cell.moments().volume)
+          balls.push_back(ball);
+      }
+      std::size_t i = 0;
+      for (auto _ : state)
+        benchmark::DoNotOptimize(geometry::intersect(balls[i++ % balls.size()], cell, 1).volume);
       count(state, "calls", 1);
     }
 
@@ -108,6 +146,11 @@ namespace plumbline::benchmarks
     for (const int ratio : {1, 3, 32, 1000})
       benchmark::RegisterBenchmark("intersect/fast", intersect, Backend::fast)->Arg(ratio);
     benchmark::RegisterBenchmark("intersect/cgal", intersect, Backend::cgal)->Arg(3);
+    for (const int tenths : {5, 10, 20, 30, 50, 100, 1000, 10000})
+    {
+      benchmark::RegisterBenchmark("intersect/box", intersect_solid, true)->Arg(tenths);
+      benchmark::RegisterBenchmark("intersect/polyhedron", intersect_solid, false)->Arg(tenths);
+    }
     benchmark::RegisterBenchmark("polar rule", polar_rule);
     for (const meshfree::Rule &one : meshfree::rules())
       benchmark::RegisterBenchmark(("rule/lattice/" + one.name).c_str(), lattice_family, one)

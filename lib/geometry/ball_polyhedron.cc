@@ -1,6 +1,7 @@
 #include "geometry/ball_polyhedron.h"
 
 #include "base/error.h"
+#include "geometry/ball_box.h"
 #include "geometry/ball_polyhedron_boundary.h"
 
 #include <algorithm>
@@ -302,6 +303,8 @@ namespace plumbline::geometry
     const auto &[centre, radius] = ball;
     if (!(radius > 0) || !std::isfinite(radius))
       throw InputError("the radius of a ball is " + std::to_string(radius) + "; give one above 0");
+    if (degree < 2 && cell.is_box())
+      return intersect_box(ball, cell.lower(), cell.upper(), cell.moments());
     if (is_well_inside(ball, cell)) // most cells of a large ball
       return cell.moments();
     CutBoundary boundary;

@@ -19,7 +19,8 @@ namespace plumbline::geometry
   /// a thousand of it. Not for: cells with curved faces (split them) or that are not convex.
   /// Method: the divergence theorem makes of the moments sums over the faces, and over the part of
   /// the sphere inside the cell; Green's theorem in the planes and Stokes' theorem on the sphere
-  /// make sums over segments and arcs of those, which both sides share.
+  /// make sums over segments and arcs of those, which both sides share. Boxes with faces across
+  /// the axes have a way of their own up to degree 1, see ball_box.h.
   SolidMoments intersect(const SolidBall &ball, const ConvexPolyhedron &cell,
                          unsigned int degree = 2);
 } // namespace plumbline::geometry

@@ -154,11 +154,9 @@ namespace plumbline::geometry
                             is_forward ? edge.is_cut_after : edge.is_cut_before});
           sides.push_back(k);
         }
-        if (!(circle > 0))
-          return result;
         if (sides.empty())
         {
-          if (holds(face, foot))
+          if (circle > 0 && holds(face, foot))
             result.arcs.push_back(full_circle(result));
           return result;
         }
@@ -168,7 +166,7 @@ namespace plumbline::geometry
             const std::size_t next = (k + 1) % sides.size();
             Arc arc{result.segments[k].to, result.segments[next].from, 0};
             arc.angle = angle_of(arc, result, face, foot, sides[k], sides[next], sides.size() == 1);
-            if (arc.angle > 0)
+            if (arc.angle > 0 || arc.from != arc.to) // a gap would cost its length
               result.arcs.push_back(arc);
           }
         return result;
@@ -275,7 +273,7 @@ namespace plumbline::geometry
       for (const CutFace &face : boundary.faces)
         for (const Arc &arc : face.arcs)
         {
-          const auto n = static_cast<unsigned int>(std::ceil(arc.angle / longest));
+          const auto n = std::max(1u, static_cast<unsigned int>(std::ceil(arc.angle / longest)));
           const Vector x = arc.from - face.middle, y = cross_product_3d(face.normal, x);
           Vector from = arc.from;
           for (unsigned int k = 1; k <= n; ++k)

@@ -28,7 +28,7 @@ namespace plumbline::geometry
   struct Arc
   {
     dealii::Tensor<1, 3> from, to; ///< about the apex [length]
-    double angle = 0;              ///< in (0, 2π] [rad]
+    double angle = 0; ///< in [0, 2π]; 0 where round-off leaves a gap between segments [rad]
   };
 
   /// What the ball leaves of a face.
@@ -122,7 +122,7 @@ namespace plumbline::geometry
   void integrate(const Arc &arc, const CutFace &face, double radius, const Use &use)
   {
     constexpr double longest = .8; // [rad], where ten points leave round-off
-    const auto n = static_cast<unsigned int>(std::ceil(arc.angle / longest));
+    const auto n = std::max(1u, static_cast<unsigned int>(std::ceil(arc.angle / longest)));
     dealii::Tensor<1, 3> from = arc.from;
     for (unsigned int k = 1; k <= n; ++k)
     {

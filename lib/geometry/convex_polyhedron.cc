@@ -80,6 +80,7 @@ namespace plumbline::geometry
     find_edges();
     find_planes(normals);
     measure();
+    find_box();
   }
 
   void ConvexPolyhedron::find_edges()
@@ -175,6 +176,30 @@ namespace plumbline::geometry
     const Tensor<1, 3> mean = first / moments_.volume;
     moments_.centroid = apex + mean;
     moments_.second = second - moments_.volume * symmetrize(outer_product(mean, mean));
+  }
+
+  void ConvexPolyhedron::find_box()
+  {
+    lower_ = upper_ = vertices_.front();
+    for (const Point<3> &x : vertices_)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        lower_[d] = std::min(lower_[d], x[d]);
+        upper_[d] = std::max(upper_[d], x[d]);
+      }
+    std::array<bool, 8> is_there{}; // each corner of the smallest box
+    is_box_ = vertices_.size() == is_there.size();
+    for (const Point<3> &x : vertices_)
+    {
+      unsigned int corner = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        corner |= (x[d] == upper_[d] ? 1u : 0u) << d;
+        is_box_ = is_box_ && (x[d] == lower_[d] || x[d] == upper_[d]);
+      }
+      is_there[corner] = true;
+    }
+    is_box_ = is_box_ && std::all_of(is_there.begin(), is_there.end(), [](bool it) { return it; });
   }
 
   ConvexPolyhedron ConvexPolyhedron::box(const Point<3> &lower, const Point<3> &upper)

@@ -59,15 +59,21 @@ namespace plumbline::geometry
     const std::vector<std::array<unsigned int, 2>> &edges() const { return edges_; }
     const std::vector<Face> &faces() const { return faces_; }
     const SolidMoments &moments() const { return moments_; } ///< of the whole cell
+    bool is_box() const { return is_box_; }                  ///< [lower, upper], with no rounding
+    const dealii::Point<3> &lower() const { return lower_; }
+    const dealii::Point<3> &upper() const { return upper_; }
 
   private:
     void find_edges();
     void find_planes(const std::vector<dealii::Tensor<1, 3>> &normals);
     void measure();
+    void find_box();
 
     std::vector<dealii::Point<3>> vertices_;
     std::vector<std::array<unsigned int, 2>> edges_;
     std::vector<Face> faces_;
     SolidMoments moments_;
+    dealii::Point<3> lower_, upper_; ///< of the smallest box around it
+    bool is_box_ = false;
   };
 } // namespace plumbline::geometry

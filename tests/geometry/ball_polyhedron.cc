@@ -31,11 +31,11 @@ namespace plumbline::geometry
       return cube;
     }
 
-    /// Differences to the slices, relative to min(|ball|, |cell|) and its diameter.
+    /// Of boxes, degree 1 and 2 go two ways. Differences of both to the slices, relative to
+    /// min(|ball|, |cell|) and its diameter.
     std::array<double, 2> errors(const Point<3> &centre, double radius, const Point<3> &upper)
     {
       const ConvexPolyhedron box = ConvexPolyhedron::box({0, 0, 0}, upper);
-      const SolidMoments found = intersect({centre, radius}, box, 1);
       const double whole = std::min(ball(radius), box.moments().volume),
                    length = std::min(2 * radius, upper.norm());
       std::array<double, 2> worst{};
@@ -49,12 +49,17 @@ namespace plumbline::geometry
           to[k] = Quad(upper[of]) - Quad(centre[of]);
         }
         const auto [volume, first] = ball_box(from, to, radius);
-        worst[0] = std::max(worst[0], std::abs(static_cast<double>(found.volume - volume)) / whole);
         const Quad about_corner = first + volume * Quad(centre[axis]);
-        worst[1] =
-            std::max(worst[1], std::abs(static_cast<double>(
-                                   Quad(found.volume) * found.centroid[axis] - about_corner)) /
-                                   whole / length);
+        for (const unsigned int degree : {1u, 2u})
+        {
+          const SolidMoments found = intersect({centre, radius}, box, degree);
+          worst[0] =
+              std::max(worst[0], std::abs(static_cast<double>(found.volume - volume)) / whole);
+          worst[1] =
+              std::max(worst[1], std::abs(static_cast<double>(
+                                     Quad(found.volume) * found.centroid[axis] - about_corner)) /
+                                     whole / length);
+        }
       }
       return worst;
     }
@@ -137,6 +142,56 @@ namespace plumbline::geometry
             }
           }
     EXPECT_EQ(n, 56);
+    EXPECT_LE(worst[0], accuracy);
+    EXPECT_LE(worst[1], of_moments);
+  }
+
+  // all of 3:4:5, so that coordinates are exact where the sphere meets vertices, edges and faces
+  TEST(BallPolyhedron, AgreesWithSlicesWhereFlatBoxesAreTangent)
+  {
+    Placements random(3);
+    const double places[] = {-1, -.75, -.6, -.5, 0, .375, .5, .75, 1, 1.25, 1.5};
+    const double sizes[] = {.375, .5, .75, 1};
+    const auto one_of = [&](const auto &values)
+    { return values[static_cast<std::size_t>(random.uniform(0, std::size(values)))]; };
+    std::array<double, 2> worst{};
+    for (const double radius : {.125, .375, .5, .625, .75, 1., 1.25, 1.5, 2.5})
+      for (int trial = 0; trial < 16; ++trial)
+      {
+        const Point<3> centre(one_of(places), one_of(places), one_of(places));
+        const auto error = errors(centre, radius, {1, one_of(sizes), one_of(sizes)});
+        for (unsigned int k = 0; k < 2; ++k)
+          worst[k] = std::max(worst[k], error[k]);
+      }
+    EXPECT_LE(worst[0], accuracy);
+    EXPECT_LE(worst[1], of_moments);
+  }
+
+  // at random, and on half-integer coordinates, where spheres touch faces, edges and vertices
+  TEST(BallPolyhedron, BoxesAreTheSameAsAnyPolyhedra)
+  {
+    Placements random(4);
+    std::array<double, 2> worst{};
+    for (const double radius : radii)
+      for (int trial = 0; trial < 8000; ++trial)
+      {
+        Point<3> centre = random.centre(radius);
+        if (trial % 5 == 4)
+          for (unsigned int k = 0; k < 3; ++k)
+            centre[k] = std::round(2 * centre[k]) / 2;
+        const ConvexPolyhedron box = ConvexPolyhedron::box(
+            {0, 0, 0}, trial % 2 == 0 ? Point<3>(1, 1, 1)
+                                      : Point<3>(1, random.uniform(.3, 1), random.uniform(.3, 1)));
+        const SolidMoments fast = intersect({centre, radius}, box, 1),
+                           general = intersect({centre, radius}, box, 2);
+        const double whole = std::min(ball(radius), box.moments().volume),
+                     length = std::min(2 * radius, box.upper().norm());
+        const Vector difference =
+            fast.volume * Vector(fast.centroid) - general.volume * Vector(general.centroid);
+        worst[0] = std::max(worst[0], std::abs(fast.volume - general.volume) / whole);
+        worst[1] = std::max(worst[1], difference.norm() / whole / length);
+      }
+    RecordProperty("worst", std::to_string(worst[0] * 1e15) + "e-15");
     EXPECT_LE(worst[0], accuracy);
     EXPECT_LE(worst[1], of_moments);
   }

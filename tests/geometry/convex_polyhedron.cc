@@ -42,6 +42,23 @@ namespace plumbline::geometry
     }
   }
 
+  TEST(ConvexPolyhedron, KnowsBoxes)
+  {
+    const ConvexPolyhedron box = ConvexPolyhedron::box({1, -2, 0}, {2, 3, .5});
+    EXPECT_TRUE(box.is_box());
+    EXPECT_EQ(box.lower(), Point<3>(1, -2, 0));
+    EXPECT_EQ(box.upper(), Point<3>(2, 3, .5));
+    std::vector<ConvexPolyhedron::Indices> faces;
+    for (const auto &face : box.faces())
+      faces.push_back(face.vertices);
+    auto vertices = box.vertices();
+    for (Point<3> &x : vertices)
+      x[0] += x[1] / 8; // sheared
+    EXPECT_FALSE(ConvexPolyhedron(vertices, faces).is_box());
+    EXPECT_FALSE(
+        ConvexPolyhedron::tetrahedron({Point<3>(), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).is_box());
+  }
+
   TEST(ConvexPolyhedron, RefusesWhatIsNone)
   {
     EXPECT_EQ(refusal(corners, sides), "");
