@@ -51,10 +51,13 @@ namespace plumbline::geometry
     std::vector<ConvexPolyhedron::Indices> faces;
     for (const auto &face : box.faces())
       faces.push_back(face.vertices);
-    auto vertices = box.vertices();
-    for (Point<3> &x : vertices)
-      x[0] += x[1] / 8; // sheared
-    EXPECT_FALSE(ConvexPolyhedron(vertices, faces).is_box());
+    auto sheared = box.vertices(), tapered = sheared;
+    for (Point<3> &x : sheared)
+      x[0] += x[1] / 8;
+    for (Point<3> &x : tapered)
+      x[0] += x[0] == 1 && x[1] > 0 ? .5 : 0;
+    EXPECT_FALSE(ConvexPolyhedron(sheared, faces).is_box());
+    EXPECT_FALSE(ConvexPolyhedron(tapered, faces).is_box());
     EXPECT_FALSE(
         ConvexPolyhedron::tetrahedron({Point<3>(), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).is_box());
   }
