@@ -121,10 +121,11 @@ namespace plumbline::check
     Table elastic_table(const Findings<dim> &found)
     {
       Table table;
-      table.columns = {"constant", "least", "median", "largest"};
+      table.columns = {"constant", "least", "median", "largest", "of the kernel"};
       for (const ElasticRange &one : found.elastic)
         table.rows.push_back({report::text_cell(one.name), report::number_cell(one.least),
-                              report::number_cell(one.median), report::number_cell(one.largest)});
+                              report::number_cell(one.median), report::number_cell(one.largest),
+                              report::number_cell(one.exact)});
       return table;
     }
 

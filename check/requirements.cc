@@ -451,6 +451,46 @@ namespace plumbline::check
       return result;
     }
 
+    /// One defect, which one number tells: the trace is off at all nodes alike, and nothing by
+    /// more.
+    bool is_alike(const MomentCheck &moments)
+    {
+      constexpr double little = .01;
+      const double defect = std::abs(moments.mean_ratio - 1);
+      return moments.second.value <= (1 + little) * defect &&
+             std::all_of(moments.ratios.begin(), moments.ratios.end(),
+                         [&](double ratio)
+                         { return std::abs(ratio - moments.mean_ratio) <= little * defect; });
+    }
+
+    /// What second moments that are off make of an elastic material; empty for scalars.
+    template <int dim>
+    std::string moduli_verdict(const Findings<dim> &found)
+    {
+      if (found.elastic.empty())
+        return {};
+      const auto constant = [&](const std::string &name)
+      {
+        return *std::find_if(found.elastic.begin(), found.elastic.end(),
+                             [&](const auto &one) { return one.name == name; });
+      };
+      const double anisotropy = constant("anisotropy").median;
+      if (!std::isfinite(anisotropy))
+        return {};
+      std::string text = "discrete elastic moduli (medians over the nodes):";
+      for (const std::string name : {"C1111", "C1122", "C1212"})
+        text += " " + name + " is off by " +
+                base::to_percent(constant(name).median / constant(name).exact - 1) + ",";
+      text.back() = ';';
+      text += " the anisotropy 2 C1212 / (C1111 - C1122) is " + base::to_text(anisotropy, 4) +
+              " instead of 1";
+      if (!found.rule.empty() && !found.is_mended &&
+          std::abs(found.rule_factor - 1) <= file_tolerance)
+        text += "; " + found.rule + " itself has these moduli at m = " +
+                base::to_text(found.level.level.horizon / found.level.level.h, 4);
+      return text;
+    }
+
     template <int dim>
     std::vector<std::string> interior_verdicts(const Findings<dim> &found)
     {
@@ -479,14 +519,19 @@ namespace plumbline::check
             std::string("second moments exact") +
             (is_first_exact ? ": asymptotically compatible (AC) as far as moments tell" : ""));
       else
-        result.push_back((moments.typical() > found.precision.moments
-                              ? "not asymptotically compatible (not AC): "
-                              : std::string()) +
-                         "second moments are off by " + base::to_percent(moments.second.value) +
-                         " at node " + found.id(moments.second.node) +
-                         " (largest component) and their trace, the strength of the operator, by " +
-                         base::to_percent(moments.mean_ratio - 1) +
-                         " on average: " + consequence(found));
+        result.push_back(
+            (moments.typical() > found.precision.moments
+                 ? "not asymptotically compatible (not AC): "
+                 : std::string()) +
+            (is_alike(moments)
+                 ? std::string("second moments are off at all nodes alike: their ")
+                 : "second moments are off by " + base::to_percent(moments.second.value) +
+                       " at node " + found.id(moments.second.node) +
+                       " (largest component) and their ") +
+            "trace, the strength of the operator, by " + base::to_percent(moments.mean_ratio - 1) +
+            (is_alike(moments) ? ": " : " on average: ") + consequence(found));
+      if (const std::string moduli = moduli_verdict(found); !is_second_exact && !moduli.empty())
+        result.push_back(moduli);
       if (found.n_on_boundary > 0)
         result.push_back(std::to_string(found.n_on_boundary) +
                          " free nodes lie on the boundary of the domain; if they carry data, write "

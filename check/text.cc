@@ -115,10 +115,10 @@ namespace plumbline::check
     {
       if (found.elastic.empty())
         return;
-      out << "elastic   constant          least       median      largest\n";
+      out << "elastic   constant          least       median      largest     of the kernel\n";
       for (const ElasticRange &one : found.elastic)
         out << "          " << std::left << std::setw(18) << one.name << std::setw(12) << one.least
-            << std::setw(12) << one.median << one.largest << '\n';
+            << std::setw(12) << one.median << std::setw(12) << one.largest << one.exact << '\n';
     }
 
     template <int dim>
@@ -255,8 +255,10 @@ namespace plumbline::check
       json["second_moment"] = {{"mean_ratio", found.moments.mean_ratio},
                                {"worst", to_json(found.moments.second, found)}};
       for (const ElasticRange &one : found.elastic)
-        json["elastic"][one.name] = {
-            {"least", one.least}, {"median", one.median}, {"largest", one.largest}};
+        json["elastic"][one.name] = {{"least", one.least},
+                                     {"median", one.median},
+                                     {"largest", one.largest},
+                                     {"exact", one.exact}};
     }
 
     /// What the weights are, and what may be wrong with them.

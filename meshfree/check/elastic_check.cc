@@ -3,6 +3,7 @@
 #include "meshfree/rules/stiffness.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 namespace plumbline::meshfree
@@ -18,6 +19,10 @@ namespace plumbline::meshfree
     std::vector<CubicStiffness> all;
     for (const Family<dim> &family : families)
       all.push_back(stiffness(kernel, family.bonds));
+    std::array<int, dim> along{};
+    along[0] = 2;
+    const double C1111 = kernel.moment(along) / 2;
+    const CubicStiffness material{C1111, C1111 / 3, C1111 / 3}; // of bonds alone: λ = μ
     std::vector<ElasticRange> ranges;
     const auto add =
         [&](const std::string &name, const std::function<double(const CubicStiffness &)> &constant)
@@ -26,7 +31,8 @@ namespace plumbline::meshfree
       for (const CubicStiffness &one : all)
         values.push_back(constant(one));
       std::sort(values.begin(), values.end());
-      ranges.push_back({name, values.front(), values[values.size() / 2], values.back()});
+      ranges.push_back(
+          {name, values.front(), values[values.size() / 2], values.back(), constant(material)});
     };
     add("C1111", [](const CubicStiffness &one) { return one.C1111; });
     add("C1122", [](const CubicStiffness &one) { return one.C1122; });
@@ -45,6 +51,8 @@ namespace plumbline::meshfree
       add("nu" + name,
           [of](const CubicStiffness &one) { return engineering_constants(one, of).nu; });
     }
+    add("anisotropy", [](const CubicStiffness &one)
+        { return engineering_constants(one, ElasticState::solid).anisotropy; });
     return ranges;
   }
 

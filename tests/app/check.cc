@@ -158,8 +158,9 @@ TEST(Check, says_how_wrong_the_limit_is)
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   expect_found(outcome.out, "cause: all weights carry a common factor of 1.2; without that the "
                             "moments are off by nothing instead of 20 %");
-  expect_found(outcome.out, "second moments are off by 20 % at node");
-  expect_found(outcome.out, "their trace, the strength of the operator, by 20 % on average");
+  expect_found(outcome.out,
+               "second moments are off at all nodes alike: their trace, the strength of "
+               "the operator, by 20 %: as horizon");
   expect_found(outcome.out, "tends to a wrong limit, off by about 16.7 %");
 }
 

@@ -686,13 +686,29 @@ TEST_F(CheckInSpace, gives_elastic_constants_and_json)
   const Outcome outcome = check("IPA-AC-R2", true);
   // kappa = 1: mu = lambda = 3/5
   for (const std::string line :
-       {"C1111             1.8         1.8         1.8", "C1122             0.6 ",
+       {"C1111             1.8         1.8         1.8         1.8", "C1122             0.6 ",
         "C1212             0.6 ", "moduli    E = 1.5, nu = 0.25 (medians over the nodes)"})
     expect_found(outcome.out, line);
   const Outcome json = check("IPA-AC-R2", true, "--json -o " + (folder_ / "out").string());
   EXPECT_EQ(json.exit_code, 0);
   EXPECT_NE(json.out.find("\"second_moment\""), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "check.json"));
+}
+
+TEST_F(CheckInSpace, tells_moduli_that_are_off)
+{
+  write(dump("FA", true));
+  const Outcome outcome = check("FA", true);
+  // sums over 32 neighbours by hand
+  expect_found(outcome.out, "C1111 is off by 3.13 %");
+  expect_found(outcome.out, "C1212 is off by -11.9 %");
+  expect_found(outcome.out, "is 0.7968 instead of 1");
+  expect_found(outcome.out, "FA itself has these moduli at m = 2");
+  Dump half = dump("FA", true);
+  for (Row &row : half.rows)
+    row.weight /= 2;
+  write(half);
+  EXPECT_EQ(check("FA", true).out.find("itself has these moduli"), std::string::npos);
 }
 
 TEST_F(CheckInSpace, refuses_files_that_cannot_be_used)

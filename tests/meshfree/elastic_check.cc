@@ -48,12 +48,13 @@ TEST(ElasticCheck, exact_moments_give_the_material)
                                                                 {"E, plane stress", 160},
                                                                 {"nu, plane stress", 1. / 3},
                                                                 {"E, plane strain", 150},
-                                                                {"nu, plane strain", .25}};
+                                                                {"nu, plane strain", .25},
+                                                                {"anisotropy", 1}};
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k)
   {
     EXPECT_EQ(found[k].name, expected[k].first);
-    for (const double value : {found[k].least, found[k].median, found[k].largest})
+    for (const double value : {found[k].least, found[k].median, found[k].largest, found[k].exact})
       EXPECT_NEAR(value / expected[k].second, 1, 1e-9) << found[k].name;
   }
 }
