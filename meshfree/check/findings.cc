@@ -28,8 +28,8 @@ namespace plumbline::meshfree
     template <int dim>
     struct Recognition
     {
-      std::vector<double> volumes; ///< that the weights were made with, as far as it is known
-      std::vector<Family<dim>> families;
+      std::vector<double> volumes;       ///< that the weights were made with, as far as it is known
+      std::vector<Family<dim>> families; ///< with those; empty: as found, of mended volumes
       std::optional<Recognised<dim>> rule;
     };
 
@@ -46,9 +46,17 @@ namespace plumbline::meshfree
       using Volumes = const std::vector<double> *;
       for (const Volumes volumes : {&found.mended_volumes, static_cast<Volumes>(&as_given)})
       {
-        std::vector<Family<dim>> families = with_volumes(found.given.families, *volumes);
-        auto rule = recognise(GivenBonds<dim>{
-            families, kernel, *found.cells, *volumes, found.precision, {}, found.lattice});
+        std::vector<Family<dim>> families; // a copy of all only where it is another
+        if (volumes == &as_given)
+          families = with_volumes(found.given.families, *volumes);
+        auto rule =
+            recognise(GivenBonds<dim>{volumes == &as_given ? families : found.given.families,
+                                      kernel,
+                                      *found.cells,
+                                      *volumes,
+                                      found.precision,
+                                      {},
+                                      found.lattice});
         if (!rule && !result.volumes.empty())
           break;
         result = {*volumes, std::move(families), std::move(rule)};
@@ -80,8 +88,13 @@ namespace plumbline::meshfree
                      const std::vector<std::string> &meant)
     {
       const Recognition<dim> recognition = recognise_weights(found, kernel);
-      const GivenBonds<dim> given{recognition.families, kernel,          *found.cells,
-                                  recognition.volumes,  found.precision, found.nodes.origin,
+      const GivenBonds<dim> given{recognition.families.empty() ? found.given.families
+                                                               : recognition.families,
+                                  kernel,
+                                  *found.cells,
+                                  recognition.volumes,
+                                  found.precision,
+                                  found.nodes.origin,
                                   found.lattice};
       const Explanation<dim> explanation =
           explain(given, recognition.rule,
@@ -145,9 +158,10 @@ namespace plumbline::meshfree
     found.moments = check_moments(families, kernel);
     found.elastic = elastic_ranges(families, kernel);
     found.weights = check_weights(families, kernel, found.mended_volumes);
-    found.symmetry = check_symmetry(
-        found.nodes.box ? without_images(families, found.nodes, *found.cells) : families, kernel,
-        found.mended_volumes);
+    found.symmetry = found.nodes.box
+                         ? check_symmetry(without_images(families, found.nodes, *found.cells),
+                                          kernel, found.mended_volumes)
+                         : check_symmetry(families, kernel, found.mended_volumes);
     find_causes(found, kernel, meant);
     return found;
   }
