@@ -159,6 +159,16 @@ namespace plumbline::study
     check(Kind::jitter, "rises of the error over its first value", check_rises);
   }
 
+  namespace
+  {
+    /// The largest value that is expected: a number, or the record's own of another quantity.
+    double bound_of(const scene::Expected &expected, const Record &record)
+    {
+      constexpr std::size_t sign = 3; // "<= "
+      return expected.values.empty() ? record[expected.verdict.substr(sign)] : expected.values[0];
+    }
+  } // namespace
+
   void check_values(const scene::Scene &scene, StudyResults &results)
   {
     for (const scene::Expected &expected : scene.expected.all)
@@ -166,6 +176,7 @@ namespace plumbline::study
       if (expected.kind != scene::ExpectedKind::values)
         continue;
       const std::string &quantity = expected.problem;
+      const bool is_bound = !expected.verdict.empty();
       std::vector<double> found;
       bool holds = true;
       for (const Record &record : results.records)
@@ -174,12 +185,14 @@ namespace plumbline::study
              without_blanks(record.key.series) == without_blanks(expected.series)))
         {
           found.push_back(record[quantity]);
-          holds = holds && found.size() <= expected.values.size() &&
-                  std::abs(found.back() / expected.values[found.size() - 1] - 1) <=
-                      scene.expected.error_tolerance;
+          holds = holds &&
+                  (is_bound ? found.back() <= bound_of(expected, record)
+                            : found.size() <= expected.values.size() &&
+                                  std::abs(found.back() / expected.values[found.size() - 1] - 1) <=
+                                      scene.expected.error_tolerance);
         }
       results.expectations.push_back(
-          {expected.method + ", " + quantity, join(expected.values),
+          {expected.method + ", " + quantity, is_bound ? expected.verdict : join(expected.values),
            found.empty() ? "no such method, quantity or series was run" : join(found),
            holds && !found.empty()});
     }

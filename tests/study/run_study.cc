@@ -164,6 +164,13 @@ TEST(RunStudy, checks_expected_values_of_any_quantity)
   EXPECT_TRUE(expected("FA, largest row sum, m = 3:" + right.str()).holds);
   EXPECT_FALSE(expected("FA, largest row sum, m = 2:" + right.str()).holds);
   EXPECT_FALSE(expected("FA, no such sum:" + right.str()).holds);
+  // bounds: a number, or another quantity of the same record
+  EXPECT_TRUE(expected("FA, smallest row sum: <= largest row sum").holds);
+  EXPECT_FALSE(expected("FA, largest row sum: <= smallest row sum").holds);
+  EXPECT_FALSE(expected("FA, largest row sum: <= no such sum").holds);
+  EXPECT_TRUE(expected("FA, largest row sum, m = 3: <= 1e9").holds);
+  EXPECT_FALSE(expected("FA, largest row sum: <= -1").holds);
+  EXPECT_EQ(expected("FA, largest row sum: <= 1e9").expected, "<= 1e9");
 }
 
 TEST(RunStudy, gives_samples_the_scalars_that_they_count)

@@ -65,9 +65,19 @@ namespace plumbline::scene
           expected.problem = subject[i];
       if (allowed.empty())
       {
-        expected.values = to_numbers(text.substr(colon + 1));
+        std::string right = trim(text.substr(colon + 1));
+        if (kind == ExpectedKind::values && right.rfind("<=", 0) == 0)
+        {
+          right = trim(right.substr(2));
+          expected.verdict = "<= " + right;
+          if (!right.empty() && right.find_first_of("0123456789.+-") != 0)
+            return expected; // another quantity
+        }
+        expected.values = to_numbers(right);
         if (expected.values.empty())
           throw InputError("'" + text + "' has no numbers after the ':'");
+        if (!expected.verdict.empty() && expected.values.size() > 1)
+          throw InputError("'" + text + "' has several numbers after '<='; give one");
         return expected;
       }
       expected.verdict = trim(text.substr(colon + 1));
@@ -163,7 +173,9 @@ namespace plumbline::scene
         "tolerance.");
     add(ExpectedKind::values,
         "'method, quantity[, series]: v0 v1 ...': the value of any quantity that an analysis "
-        "records (see its JSON file) at each level, to Expected/error tolerance.");
+        "records (see its JSON file) at each level, to Expected/error tolerance. '<= v' in place "
+        "of the numbers: every value is at most v; '<= another quantity': at most that of the same "
+        "record, e.g. 'FA, largest error over time: <= error bound'.");
     add(ExpectedKind::growth, "'method: d': growth rates of waves on uniformly strained "
                               "double-well bonds, observed by 'plumbline stability', differ from "
                               "those of the symbol by at most d times the largest rate.");
