@@ -3,9 +3,11 @@
 #include "report/text_table.h"
 #include "report/view.h"
 #include "study/stability.h"
+#include "study/strain_growth.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace plumbline::report
@@ -158,6 +160,32 @@ namespace plumbline::report
                     {"no motion, because", [](const Record &r)
                      { return known(!r.failure.empty(), text_cell(r.failure)); }}},
                    has_growth)};
+    }
+
+    Part spectral_radii(const StudyResults &results)
+    {
+      const auto has_radii = [](const Record &record) { return record.has("growth step"); };
+      std::vector<RecordColumn> columns = {
+          {"series", [](const Record &r) { return text_cell(r.key.series); }},
+          {"strain", [](const Record &r) { return text_cell(r.key.variant); }},
+          {"method", [](const Record &r) { return text_cell(r.key.method); }},
+          number_column("rate", "growth rate"),
+          number_column("dt", "growth step"),
+          number_column("exp(rate dt)", "growth factor")};
+      std::set<std::string> known;
+      for (const Record &record : results.records)
+        for (const auto &[name, scalar] : record.scalars)
+          if (name.rfind(study::spectral_radius_of, 0) == 0 && known.insert(name).second)
+            columns.push_back(
+                number_column(name.substr(std::string(study::spectral_radius_of).size()), name));
+      return {"spectral-radii", "Growth in one time step on the largest strain",
+              "Of the wave that grows fastest, at the largest X of the samples: its rate by the "
+              "rule's own tangent, its growth exp(rate dt) in one step, and the spectral radius of "
+              "one step of each of Time/schemes, with the longest of Time/steps or Time/critical "
+              "fractions. Of implicit Euler it is (65) of Jha & Lipton 2018, "
+              "doi:10.1137/17M1112236, |1 + rate dt| / |1 - (rate dt)^2|. A scheme whose radius is "
+              "not above 1 hides the instability.",
+              table_of(results, columns, has_radii)};
     }
 
     /// Growth rates over X of all methods in one direction of a series.
@@ -419,6 +447,7 @@ namespace plumbline::report
         eigenvalues(results),
         time_steps(results),
         strain_thresholds(results),
+        spectral_radii(results),
         {"powers", "Over the sweep",
          "The powers of h, or of the horizon where h is fixed, that the measures follow at "
          "the finest three levels: 0 is bounded, -2 grows fourfold as it is halved.",

@@ -154,6 +154,14 @@ namespace plumbline::scene
                                           {"Sampling", "Sampling/rule"},
                                           {"Time", "Time/final time", "Time/density"}};
 
+    /// 'plumbline stability' takes steps of waves on strained double wells, whatever the final
+    /// time.
+    bool is_of_steps(const Scene &scene, const std::string &key)
+    {
+      return scene.material.model == &double_well() && scene.domain.is_periodic &&
+             (key == "Time/schemes" || key == "Time/steps" || key == "Time/critical fractions");
+    }
+
     /// A key that has an effect only if another key is given.
     struct Companion
     {
@@ -183,7 +191,7 @@ namespace plumbline::scene
     for (const Switch &one : switches)
       if (!keys.is_given(one.key))
         for (const std::string &key : keys.changed_keys(one.section))
-          if (key != one.needed_alone)
+          if (key != one.needed_alone && !is_of_steps(scene, key))
             return unused(keys, key, one.key);
     for (const Companion &one : companions)
       if (!keys.is_given(one.other) && keys.is_changed(one.key))

@@ -320,7 +320,7 @@ namespace plumbline::study
       const problem::Problem<2> &problem = place.problem();
       Records records = {measured(place, method, problem)};
       if (place.is_finest() && problem.double_well && problem.is_periodic())
-        for (Record &record : strain_records(place, method))
+        for (Record &record : strain_records(place, method, records.front()["critical step"]))
           records.push_back(std::move(record));
       return records;
     }

@@ -1,9 +1,11 @@
 #include "study/strain_growth.h"
 
+#include "analysis/amplification.h"
 #include "analysis/wave_growth.h"
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/discretisation.h"
+#include "study/motion_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -235,7 +237,27 @@ namespace plumbline::study
     return record;
   }
 
-  Records strain_records(const Place &place, const Method &method)
+  void enter_spectral_radii(const scene::TimeSection &time, double critical, Record &record)
+  {
+    const Curve &growth = record.curves.at("growth");
+    const auto linear =
+        std::find_if(growth.begin(), growth.end(),
+                     [](const analysis::Column &column) { return column.name == "linear"; });
+    double step = 0;
+    for (const StepRule &rule : step_rules(time))
+      step = std::max(step, rule.is_fraction ? rule.value * critical : rule.value);
+    if (linear == growth.end() || linear->values.empty() || !(step > 0))
+      return;
+    const double rate = linear->values.back();
+    record.set("growth rate", rate, "1/time");
+    record.set("growth step", step, "time");
+    record.set("growth factor", std::exp(rate * step));
+    for (const std::string &name : time.schemes)
+      if (const analysis::Scheme &scheme = analysis::scheme(name); !scheme.is_runge_kutta)
+        record.set(spectral_radius_of + name, analysis::spectral_radius(scheme, rate * rate, step));
+  }
+
+  Records strain_records(const Place &place, const Method &method, double critical)
   {
     const double density = place.scene().time.density;
     using Growths = std::vector<StrainGrowth>;
@@ -246,7 +268,10 @@ namespace plumbline::study
     Records records;
     for (const StrainGrowth &growth : growths)
       for (const MethodGrowth &one : growth.methods) // none: no motion about strains
+      {
         records.push_back(strain_record(place.record("stability", method), growth, one));
+        enter_spectral_radii(place.scene().time, critical, records.back());
+      }
     return records;
   }
 

@@ -65,8 +65,19 @@ namespace plumbline::study
   /// linear, observed.
   Record strain_record(Record record, const StrainGrowth &growth, const MethodGrowth &one);
 
+  constexpr const char *spectral_radius_of = "spectral radius of "; ///< and the name of a scheme
+
+  /// By how much the fastest growing wave on the largest strain grows in one of the longest steps,
+  /// by the method's own tangent: "growth rate" σ [1/time], "growth step" Δt, "growth factor"
+  /// exp(σΔt), and for each scheme but Runge-Kutta "spectral radius of SCHEME". Of implicit Euler
+  /// it is (65) of Jha & Lipton 2018, see analysis::spectral_radius.
+  /// @param record    with the curve "growth"
+  /// @param critical  step of central differences at rest, which fractions are of [time]
+  void enter_spectral_radii(const scene::TimeSection &time, double critical, Record &record);
+
   /// The growth of waves on strains at a place by one method: a record for each direction.
-  Records strain_records(const Place &place, const Method &method);
+  /// @param critical  as above
+  Records strain_records(const Place &place, const Method &method, double critical);
 
   /// Expected/wave growth rates: the largest difference from the symbol of a method over all series
   /// and directions.

@@ -89,6 +89,35 @@ TEST(StrainGrowth, rates_fall_with_the_root_of_the_density)
   EXPECT_NEAR(light[0].methods[0].observed.back() / heavy[0].methods[0].observed.back(), 2, 1e-3);
 }
 
+// Jha & Lipton 2018, (65): of implicit Euler |1 + √λ Δt| / |1 - λ Δt²|.
+TEST(StrainGrowth, spectral_radii_are_of_the_largest_strain_and_the_longest_step)
+{
+  const auto scene =
+      torus({{"Methods/names", "FA"},
+             {"Time/schemes", "implicit Euler, trapezoidal, velocity Verlet, Runge-Kutta"},
+             {"Time/steps", "0.05, 0.01"}});
+  const auto with = [](const scene::TimeSection &time, double critical)
+  {
+    Record record;
+    record.curves["growth"] = {{"X", "", {1, 2}}, {"linear", "1/time", {0, 3}}};
+    enter_spectral_radii(time, critical, record);
+    return record;
+  };
+  const Record record = with(scene.time, 9);
+  constexpr double z = 3 * .05;
+  EXPECT_EQ(record["growth rate"], 3);
+  EXPECT_EQ(record["growth step"], .05);
+  EXPECT_NEAR(record["growth factor"], std::exp(z), 1e-15);
+  EXPECT_NEAR(record["spectral radius of implicit Euler"], (1 + z) / std::abs(1 - z * z), 1e-14);
+  EXPECT_NEAR(record["spectral radius of trapezoidal"], (1 + z / 2) / (1 - z / 2), 1e-14);
+  const double half = 1 + z * z / 2; // eigenvalues of a matrix of determinant 1 and trace 2 + z²
+  EXPECT_NEAR(record["spectral radius of velocity Verlet"], half + std::sqrt(half * half - 1),
+              1e-14);
+  EXPECT_FALSE(record.has("spectral radius of Runge-Kutta"));
+  const auto fraction = torus({{"Methods/names", "FA"}, {"Time/critical fractions", "0.25"}});
+  EXPECT_EQ(with(fraction.time, 9)["growth step"], 2.25);
+}
+
 TEST(StrainGrowth, expected_is_checked_for_every_direction)
 {
   const auto check = [](const std::string &expected)
