@@ -20,6 +20,86 @@ namespace plumbline::study
       const double r = h / 2, x = centre[0], y = centre[1];
       return {{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}};
     }
+
+    /// Of a cell and another problem's the area that they share, if they do.
+    struct Overlap
+    {
+      std::size_t cell = 0, other = 0;
+      double area = 0;
+    };
+    using Overlaps = std::vector<Overlap>;
+
+    Overlaps overlaps_of(const CellPieces &cells, const CellPieces &others)
+    {
+      std::vector<geometry::Box> boxes;
+      for (const geometry::Polygon &piece : others.pieces)
+        boxes.push_back(geometry::bounding_box(view(piece)));
+      const geometry::BoxSearch<2> search(std::move(boxes));
+      std::vector<unsigned int> found;
+      Overlaps result;
+      for (std::size_t p = 0; p < cells.pieces.size(); ++p)
+      {
+        search.find(geometry::bounding_box(view(cells.pieces[p])), found);
+        for (const unsigned int other : found)
+          if (const auto common =
+                  geometry::overlap(view(cells.pieces[p]), view(others.pieces[other]));
+              !common.empty())
+            result.push_back({cells.cell[p], others.cell[other], geometry::area(view(common))});
+      }
+      return result;
+    }
+
+    std::vector<double> transferred(const Overlaps &overlaps, const std::vector<double> &averages,
+                                    std::size_t n_cells, unsigned int n_components)
+    {
+      std::vector<double> sum(n_cells * n_components), shared(n_cells);
+      for (const auto &[cell, other, area] : overlaps)
+      {
+        shared[cell] += area;
+        for (unsigned int c = 0; c < n_components; ++c)
+          sum[cell * n_components + c] += area * averages[other * n_components + c];
+      }
+      for (std::size_t i = 0; i < sum.size(); ++i)
+      {
+        if (!(shared[i / n_components] > 0))
+        {
+          std::ostringstream message;
+          message << "cells of the finest level meet nothing of a coarser level's cell "
+                  << i / n_components << ", so it cannot be held against them; let all levels fill "
+                  << "the same domain (Domain/mesh, Methods/nodes)";
+          throw NumericalError(message.str());
+        }
+        sum[i] /= shared[i / n_components];
+      }
+      return sum;
+    }
+
+    double distance(const Overlaps &overlaps, const CellPieces &cells, const std::vector<double> &u,
+                    const CellPieces &others, const std::vector<double> &v,
+                    unsigned int n_components)
+    {
+      const auto square = [n = n_components](const double *a, const double *b)
+      {
+        double sum = 0;
+        for (unsigned int c = 0; c < n; ++c)
+          sum += (a[c] - b[c]) * (a[c] - b[c]);
+        return sum;
+      };
+      std::vector<double> alone = cells.area, others_alone = others.area;
+      double sum = 0;
+      for (const auto &[cell, other, area] : overlaps)
+      {
+        sum += area * square(&u[cell * n_components], &v[other * n_components]);
+        alone[cell] -= area;
+        others_alone[other] -= area;
+      }
+      const std::vector<double> zero(n_components);
+      for (std::size_t i = 0; i < alone.size(); ++i)
+        sum += std::max(0., alone[i]) * square(&u[i * n_components], zero.data());
+      for (std::size_t i = 0; i < others_alone.size(); ++i)
+        sum += std::max(0., others_alone[i]) * square(&v[i * n_components], zero.data());
+      return std::sqrt(sum);
+    }
   } // namespace
 
   CellPieces comparison_pieces(const problem::Problem<2> &problem)
@@ -52,40 +132,14 @@ namespace plumbline::study
                                            const std::vector<double> &averages,
                                            const CellPieces &cells, unsigned int n_components)
   {
-    std::vector<geometry::Box> boxes;
-    for (const geometry::Polygon &piece : others.pieces)
-      boxes.push_back(geometry::bounding_box(view(piece)));
-    const geometry::BoxSearch<2> search(std::move(boxes));
-    std::vector<double> sum(cells.area.size() * n_components), shared(cells.area.size());
-    std::vector<unsigned int> found;
-    for (std::size_t p = 0; p < cells.pieces.size(); ++p)
-    {
-      search.find(geometry::bounding_box(view(cells.pieces[p])), found);
-      for (const unsigned int other : found)
-      {
-        const auto common = geometry::overlap(view(cells.pieces[p]), view(others.pieces[other]));
-        if (common.empty())
-          continue;
-        const double area = geometry::area(view(common));
-        shared[cells.cell[p]] += area;
-        for (unsigned int c = 0; c < n_components; ++c)
-          sum[cells.cell[p] * n_components + c] +=
-              area * averages[others.cell[other] * n_components + c];
-      }
-    }
-    for (std::size_t i = 0; i < sum.size(); ++i)
-    {
-      if (!(shared[i / n_components] > 0))
-      {
-        std::ostringstream message;
-        message << "cells of the finest level meet nothing of a coarser level's cell "
-                << i / n_components << ", so it cannot be held against them; let all levels fill "
-                << "the same domain (Domain/mesh, Methods/nodes)";
-        throw NumericalError(message.str());
-      }
-      sum[i] /= shared[i / n_components];
-    }
-    return sum;
+    return transferred(overlaps_of(cells, others), averages, cells.area.size(), n_components);
+  }
+
+  double distance_across(const CellPieces &cells, const std::vector<double> &u,
+                         const CellPieces &others, const std::vector<double> &v,
+                         unsigned int n_components)
+  {
+    return distance(overlaps_of(cells, others), cells, u, others, v, n_components);
   }
 
   void OwnFinest::keep(const Record &run, const problem::Problem<2> &problem,
@@ -98,6 +152,7 @@ namespace plumbline::study
 
   void OwnFinest::compare(const scene::Scene &scene, std::vector<Record> &runs) const
   {
+    std::map<std::pair<Place, Place>, Overlaps> overlaps; // of cells with those of a finest level
     for (Record &run : runs)
     {
       const auto own = kept_.find({run.key.method, place(run)});
@@ -110,7 +165,12 @@ namespace plumbline::study
         continue;
       const CellPieces &cells = cells_.at(place(run));
       const auto [averages, n] = own->second;
-      const auto fine = transferred_averages(cells_.at(finest), target->second.averages, cells, n);
+      auto shared = overlaps.find({place(run), finest});
+      if (shared == overlaps.end())
+        shared =
+            overlaps.emplace(std::pair(place(run), finest), overlaps_of(cells, cells_.at(finest)))
+                .first;
+      const auto fine = transferred(shared->second, target->second.averages, cells.area.size(), n);
       double largest = 0, squares = 0;
       for (std::size_t i = 0; i < fine.size(); ++i)
       {
@@ -122,6 +182,10 @@ namespace plumbline::study
         if (scene::quantity(norm) == scene::Quantity::averages)
           run.set(scene::DecisiveError{norm, scene::Target::finest}.text(),
                   scene::is_largest(norm) ? largest : std::sqrt(squares));
+      for (const auto &[whose, other] : kept_)
+        if (whose.second == finest)
+          run.set(distance_to_finest + whose.first,
+                  distance(shared->second, cells, averages, cells_.at(finest), other.averages, n));
     }
   }
 } // namespace plumbline::study

@@ -33,6 +33,15 @@ namespace plumbline::study
                                            const std::vector<double> &averages,
                                            const CellPieces &cells, unsigned int n_components);
 
+  /// ‖u - v‖ in L2 of two fields that are constant on the cells of their problems, exact. Beyond
+  /// its cells, in constrained parts of free bodies, a field is 0.
+  double distance_across(const CellPieces &cells, const std::vector<double> &u,
+                         const CellPieces &others, const std::vector<double> &v,
+                         unsigned int n_components);
+
+  /// What records call such distances, with the name of the other method.
+  constexpr const char *distance_to_finest = "L2 distance to the finest ";
+
   /// Solutions by which a method is held against its own of the finest level.
   class OwnFinest
   {
@@ -42,6 +51,8 @@ namespace plumbline::study
 
     /// Enters "norm | own finest level" for the scene's norms of averages into all runs of a
     /// method, case and series that were kept, but the finest one; where that is missing, nowhere.
+    /// Besides, the distances of fields that are constant on cells from those of all methods at the
+    /// finest level.
     void compare(const scene::Scene &scene, std::vector<Record> &runs) const;
 
   private:

@@ -2,6 +2,7 @@
 #include "meshfree/body/network.h"
 #include "meshfree/discretisations.h"
 #include "meshfree/rules/family_statistics.h"
+#include "meshfree/rules/partial_weights.h"
 #include "meshfree/scattered/field.h"
 #include "method/linear_motion.h"
 
@@ -102,6 +103,9 @@ namespace plumbline::meshfree
       {
         describe_weights(bonds.family, bonds.fit, diagnostics_);
         diagnostics_.notes = bonds.notes;
+        const std::string violation = violation_of_a4(bonds, problem.horizon());
+        diagnostics_.notes.push_back("assumption A4 of Pflug et al. 2026 on the weights " +
+                                     (violation.empty() ? "holds" : "does not hold: " + violation));
       }
 
       std::size_t n_unknowns() const override { return 2 * cells_->n_free; }

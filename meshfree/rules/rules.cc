@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/similar_words.h"
+#include "meshfree/rules/monte_carlo.h"
 
 namespace plumbline::meshfree
 {
@@ -58,6 +59,8 @@ namespace plumbline::meshfree
         {"GMLS",
          "generalised moving least squares, scalar kernels: exact second moments; not m-convergent",
          generalised_moving_least_squares<2>, generalised_moving_least_squares<3>, true},
+        {"MC", "Monte Carlo: the area of the ball divided equally among the nodes in it",
+         monte_carlo<2>, monte_carlo<3>, false, monte_carlo<1>},
         {"IPA-AC-R2c", "IPA-AC-R2 with tensors at the centroid: negative weights, a counterexample",
          recalibrated_at_centroid<2>, recalibrated_at_centroid<3>},
     };

@@ -110,7 +110,7 @@ TEST(ModuliCommand, refuses_what_it_cannot_take)
   expect("--m nan", "--m");
   expect("--m 3,015", "looks like a number with a decimal comma; write 3.015");
   expect("--rules XY", "choose all or some of FA, LAMMPS");
-  expect("--rules XY", "GFD, PDDO, GMLS, IPA-AC-R2c");
+  expect("--rules XY", "GFD, PDDO, GMLS, MC, IPA-AC-R2c");
   for (const std::string rule : {"PDDO", "gmls"})
     expect("--rules FA," + rule, "supports scalar kernels only, which have no elastic "
                                  "constants; take GFD or IPA-AC-R2");

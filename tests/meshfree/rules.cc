@@ -1,4 +1,6 @@
 #include "meshfree/rules/rules.h"
+#include "meshfree/rules/monte_carlo.h"
+#include "meshfree/rules/partial_weights.h"
 
 #include "algebra/solve.h"
 #include "base/error.h"
@@ -38,6 +40,47 @@ TEST(PartialArea, weights_add_up_to_the_ball_without_the_nodes_own_cell)
       sum += bond.weight;
     EXPECT_NEAR(sum / (h * h), M_PI * m * m - 1, 1e-12 * m * m) << m;
   }
+}
+
+// 29 nodes in the ball of radius 3 h, 13 in that of 2 h
+TEST(MonteCarlo, divides_the_ball_equally_among_its_nodes)
+{
+  for (const auto &[m, n] : {std::pair(2., 13u), {3., 29u}})
+  {
+    const auto kernel = scalar_kernel<2>(m);
+    const auto family = make(monte_carlo(kernel), kernel).family;
+    ASSERT_EQ(family.size() + 1, n);
+    for (const Bond<2> &bond : family)
+      EXPECT_NEAR(bond.weight / (h * h), M_PI * m * m / n, 1e-12);
+  }
+}
+
+// Pflug, Stingl & Zetzmann 2026, assumption A4 and remark 3.7
+TEST(AssumptionA4, holds_for_full_and_partial_areas_and_ramps_alone)
+{
+  for (const double m : {3., 3.7, 5.})
+  {
+    const auto kernel = scalar_kernel<2>(m);
+    const auto violation = [&](const std::string &rule)
+    { return violation_of_a4(make(find_rule(rule, "rule").in_plane(kernel), kernel), m * h); };
+    for (const std::string rule : {"FA", "LAMMPS", "QWJ", "PA-AC", "IPA-AC"})
+      EXPECT_EQ(violation(rule), "") << rule << m;
+    for (const std::string rule : {"MC", "OPT", "IPA-AC-R2"})
+      EXPECT_NE(violation(rule).find("(b)"), std::string::npos) << rule << m;
+  }
+  const auto kernel = scalar_kernel<2>(3);
+  const auto starts = [](const Bonds<2> &bonds, const std::string &text)
+  { return violation_of_a4(bonds, 3 * h).substr(0, text.size()) == text; };
+  EXPECT_TRUE(starts(make(monte_carlo(kernel), kernel), "(b) w = 0.975 at "));
+  auto bonds = make(full_area(kernel), kernel);
+  bonds.family.front().weight *= .5; // of a node on the circle, of which (a) and (b) say nothing
+  EXPECT_TRUE(starts(bonds, "(d) w = 0.5 at ξ = (0, -3) h"));
+  bonds.family.front().weight = -1e-9 * h * h;
+  EXPECT_TRUE(starts(bonds, "(c) "));
+  bonds.family.erase(bonds.family.begin() + 13); // to a next neighbour
+  EXPECT_TRUE(starts(bonds, "(b) w = 0 at ξ = (-1, 0) h"));
+  bonds.family.push_back({{5 * h, 0}, h * h, {5 * h, 0}, h * h});
+  EXPECT_TRUE(starts(bonds, "(a) w = 1 at ξ = (5, 0) h"));
 }
 
 TEST(PartialArea, exact_geometry_gives_the_same_weights_and_centroids)

@@ -71,6 +71,17 @@ TEST(SelfConvergence, any_cells_keep_integrals_and_components_apart)
   EXPECT_NEAR(after, 2, 1e-11); // ∫ x over the domain
 }
 
+TEST(SelfConvergence, fields_are_0_beyond_their_cells)
+{
+  const auto square = [](double left, double side) {
+    return geometry::Polygon{{left, 0}, {left + side, 0}, {left + side, side}, {left, side}};
+  };
+  const CellPieces one{{square(0, 2)}, {0}, {4}}, other{{square(1, 1)}, {0}, {1}};
+  // 3 on the one, but -1 on what they share; then 3 against 0
+  EXPECT_NEAR(distance_across(one, {3}, other, {4}, 1), std::sqrt(1. + 9 * 3), 1e-13);
+  EXPECT_NEAR(distance_across(other, {4}, one, {3}, 1), std::sqrt(1. + 9 * 3), 1e-13);
+}
+
 TEST(SelfConvergence, every_level_is_held_against_the_last_one_of_the_same_method_and_series)
 {
   const scene::Scene scene = scene::parse_scene(
@@ -99,6 +110,11 @@ TEST(SelfConvergence, every_level_is_held_against_the_last_one_of_the_same_metho
   EXPECT_NEAR(runs[0]["averages Linf | own finest level"], 1, 1e-13);
   EXPECT_NEAR(runs[0]["averages L2 | own finest level"], std::sqrt(2.), 1e-13);
   EXPECT_NEAR(runs[2]["averages Linf | own finest level"], 3, 1e-13);
+  // of each from the finest of both: 1, 5 at the coarse level, 2, 8 at the fine one, over an area
+  // of 2
+  EXPECT_NEAR(runs[0]["L2 distance to the finest A"], std::sqrt(2.), 1e-13);
+  EXPECT_NEAR(runs[0]["L2 distance to the finest B"], 7 * std::sqrt(2.), 1e-12);
+  EXPECT_NEAR(runs[2]["L2 distance to the finest A"], 3 * std::sqrt(2.), 1e-13);
   EXPECT_TRUE(runs[1].scalars.empty());
   EXPECT_TRUE(runs[3].scalars.empty());
 }

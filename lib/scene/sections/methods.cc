@@ -19,7 +19,7 @@ namespace plumbline::scene
     keys.add(
         "names", "", any_text(), [this](const std::string &text) { names = to_methods(text); },
         "Methods to compare, separated by ','; 'all' selects every method that supports the scene, "
-        "except GFD, PDDO, GMLS and IPA-AC-R2c. "
+        "except GFD, PDDO, GMLS, MC and IPA-AC-R2c. "
         "See 'plumbline list methods', which also gives published names (HHB, PA-HHB, PDLAMMPS, "
         "...) that are accepted. PDDO and GMLS need scalar kernels. IPA-AC evaluates these "
         "quantities at the centroid of the "
