@@ -48,6 +48,7 @@ namespace plumbline::analysis
       event.work =
           (before ? before->work : 0) + .5 * first.reaction * (square(event.load) - square(from));
       const QuasistaticFractureModel::Release release = body.break_bonds(event.bonds);
+      event.work += release.work * square(event.load);
       double at_limits = 0;
       for (std::size_t i = 0; i < event.bonds.size(); ++i)
         at_limits += release.single[i] * square(first.critical_loads[event.bonds[i]]);

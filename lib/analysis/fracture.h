@@ -17,7 +17,7 @@ namespace plumbline::analysis
     std::vector<std::size_t> bonds;
     double reaction_before = 0, reaction = 0; ///< at the load, with the bonds and without
     // energies since load 0, after it
-    double work = 0; ///< of the grips
+    double work = 0; ///< of the grips and of dead loads
     double stored = 0;
     double in_bonds = 0; ///< of broken bonds, each at its limit
     double released = 0; ///< what broke at more than its limit had beyond it, and what was set free

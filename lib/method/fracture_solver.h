@@ -27,6 +27,8 @@ namespace plumbline::method
     std::vector<geometry::Polyline> notch;        ///< what it is cut by from the beginning
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
         constrained; ///< u in the grips at load 1
+    /// Dead load at load 1, at free nodes; empty: none. Without surface terms [force/length^dim].
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> load = {};
     std::function<physics::Lame(const dealii::Point<dim> &)> material;
     std::function<double(const dealii::Point<dim> &)> toughness; ///< G [force/length]
     /// Published, none or consistent, see meshfree::SurfaceForces; else the forces have an energy.

@@ -8,8 +8,8 @@ namespace plumbline::method
 {
   /// A body held together by bonds, each whole or broken, whose response to its load is linear
   /// while none of them breaks: what analysis::grow needs of a discretisation. The load is a factor
-  /// of the displacements of the grips; quantities are those at load 1 and go with the load
-  /// (reactions, stretches) or its square (energies).
+  /// of the displacements of the grips and of dead loads; quantities are those at load 1 and go
+  /// with the load (reactions, stretches) or its square (energies).
   class QuasistaticFractureModel
   {
   public:
@@ -23,7 +23,7 @@ namespace plumbline::method
     {
       double energy = 0;   ///< stored [force]
       double reaction = 0; ///< Σ over constrained nodes of force times u at load 1, all forces
-                           ///< included; where there is an energy dE/d(load) [force]
+                           ///< included, and of dead loads times u: d(work)/d(load) [force]
       double residual =
           0; ///< largest force on a free node, over that of a bond when all were whole
       /// At which each bond breaks, infinite where it cannot or is broken; shape (n_bonds).
@@ -36,6 +36,7 @@ namespace plumbline::method
     {
       double bonds = 0;           ///< energy of those that break, together
       double relaxing = 0;        ///< set free where the others move
+      double work = 0;            ///< of dead loads there
       std::vector<double> single; ///< energy that each would release if it broke alone
       bool is_factored = false;   ///< the equations were factored anew
     };

@@ -66,7 +66,11 @@ namespace plumbline::report
           {"Li", "the same on the interface: bonds with one end in each phase [length]"},
           {"width", "of all separated cell faces, projected onto the x-axis [length]"},
           {"area", "of all separated cell faces, projected onto the plane of x and z [length^2]"},
-          {"apart", "separated cell faces that are not connected to the notch"},
+          {"apart", "separated cell faces that are not connected to the notch, or without one to "
+                    "the first of them"},
+          {"nucleus x", "where the crack begins in a body without a notch: the middle of the first "
+                        "separated cell face [length]"},
+          {"nucleus y", "the same [length]"},
           {"connected", "whether bonds still connect the grips at the end"},
           {"reaction left", "reaction at the end relative to its peak"},
           {"s0", "critical stretch of bonds, the minimum over all materials"},
@@ -136,6 +140,10 @@ namespace plumbline::report
     {
       if (!record.has("first advance"))
         return "The crack does not grow";
+      if (record.has("nucleus x"))
+        return "A crack begins at (" + rounded(record["nucleus x"]) + ", " +
+               rounded(record["nucleus y"]) + ") at load " + rounded(record["first advance"]) +
+               " and advances by " + rounded(record["advance"]) + " [length]";
       return "The crack starts to grow at load " + rounded(record["first advance"]) +
              " and advances by " + rounded(record["advance"]) + " [length]";
     }
@@ -157,7 +165,8 @@ namespace plumbline::report
       if (record.count("apart") > 0)
         text += "; " + counted(record.count("apart"), "cell face") +
                 (record.count("apart") == 1 ? " separates" : " separate") +
-                " elsewhere, not connected to the notch";
+                " elsewhere, not connected to " +
+                (record.has("nucleus x") ? "the crack" : "the notch");
       if (is_broken)
         text += ". At the end " +
                 std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +

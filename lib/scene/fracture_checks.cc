@@ -78,13 +78,25 @@ namespace plumbline::scene
           "Domain/boundary = free and Domain/fixed, the grips");
     needs(domain.outside.empty() && !domain.collar,
           "Domain/outside empty and Domain/interaction domain = auto");
-    needs(is_moving || (scene.problem.solutions.empty() && scene.problem.loads.empty() &&
+    const bool is_loaded = !scene.problem.loads.empty();
+    needs(is_moving || (scene.problem.solutions.empty() && scene.problem.loads.size() <= 1 &&
                         scene.problem.constraint.has_value()),
-          "Problem/constraint, the displacement of the grips at load 1, and neither solution nor "
-          "load");
+          "Problem/constraint, the displacement of the grips at load 1 (0, 0 for a body that "
+          "Problem/load pulls), no Problem/solution, and no more than one load");
+    needs(is_moving || !is_loaded ||
+              (!fracture.is_corrected() && fracture.solver != GrowthSolver::multigrid),
+          "Fracture/surface terms = uncorrected and Fracture/solver = automatic or factor, because "
+          "Problem/load is given");
+    if (is_loaded && !is_moving)
+      needs(physics::Expression("Problem/load", scene.problem.loads.front().expression, names)
+                    .n_components() == scene.n_components(),
+            "Problem/load of " + std::to_string(scene.n_components()) + " components");
     needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres,
           "one meshfree method (Methods/names) on centres (Methods/nodes)");
-    needs(!domain.cracks.empty(), "an initial notch in Domain/cracks, from its mouth to its tip");
+    needs(
+        !domain.cracks.empty() || (!is_moving && !domain.is_in_space()),
+        "an initial notch in Domain/cracks, from its mouth to its tip (only quasi-static fracture "
+        "in two dimensions begins without one)");
     needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
           "one Study/h and one Study/m (or Study/horizon)");
     if (is_moving)

@@ -110,13 +110,35 @@ namespace plumbline::study
     };
   } // namespace
 
+  namespace
+  {
+    /// Of the first next neighbours that part, if any do.
+    std::vector<std::array<Point<2>, 2>> first_side(const GrowthModel &model,
+                                                    const std::vector<Event> &events)
+    {
+      for (const Event &event : events)
+        for (const std::size_t b : event.bonds)
+          if (are_next(model, model.bonds[b]))
+            return {side_between(model, model.bonds[b])};
+      return {};
+    }
+  } // namespace
+
+  std::optional<Point<2>> find_nucleus(const GrowthModel &model, const std::vector<Event> &events)
+  {
+    const auto side = first_side(model, events);
+    if (side.empty())
+      return {};
+    return side[0][0] + .5 * (side[0][1] - side[0][0]);
+  }
+
   CrackPath find_path(const GrowthModel &model, const std::vector<Event> &events)
   {
     CrackPath path;
     for (const auto &bond : model.cut)
       if (are_next(model, bond))
         path.notch.push_back(side_between(model, bond));
-    Joined joined(model, path.notch);
+    Joined joined(model, path.notch.empty() ? first_side(model, events) : path.notch);
     Point<2> tip = model.notch_tip;
     for (std::size_t e = 0; e < events.size(); ++e)
     {

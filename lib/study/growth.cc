@@ -404,6 +404,11 @@ namespace plumbline::study
     set_intensity(found.plane_modulus, record);
     set_lengths(found, record);
     record.set("width", path.width, "length");
+    if (path.notch.empty() && !path.sides.empty())
+    {
+      record.set("nucleus x", found.origin[0] + found.notch_tip[0], "length");
+      record.set("nucleus y", found.origin[1] + found.notch_tip[1], "length");
+    }
     record.set("apart", static_cast<double>(path.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired));
     set_end(growth, "force", record);

@@ -6,6 +6,7 @@
 #include "study/analysis.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 // How a crack grows in equilibrium: run, found out and held against what is expected.
@@ -35,8 +36,14 @@ namespace plumbline::study
     std::size_t joined = 0; ///< the event after which it is joined, if it is
   };
 
+  /// Where a crack begins in a body without a notch: the middle of the first side whose next
+  /// neighbours part; nothing where none do.
+  std::optional<dealii::Point<2>> find_nucleus(const GrowthModel &model,
+                                               const std::vector<analysis::Event> &events);
+
   /// Where a crack went. It is where next neighbours have parted: sides of cells that hang together
-  /// with the notch, at their ends or from one row to the next.
+  /// with the notch, at their ends or from one row to the next; without a notch, with the first
+  /// side.
   struct CrackPath
   {
     std::vector<std::array<dealii::Point<2>, 2>> notch; ///< sides that it cuts
@@ -130,7 +137,8 @@ namespace plumbline::study
   /// has more than two values there are no phases. "first break" and
   /// "first advance" are loads of the first broken bond, in event 0, and of the first event after
   /// which the tip is not the notch's, the "first advance event". "width", "apart", "reaction left"
-  /// and others.
+  /// and others. Without a notch "nucleus x" and "nucleus y" are where the crack begins, see
+  /// find_nucleus.
   /// Texts: "end" and "connected". Curves: "events", "broken" (their bonds), "sides" and "notch",
   /// "moments" of the components of the field "damage", "parts" and "phases". Field "G" where it
   /// varies.

@@ -90,6 +90,16 @@ namespace plumbline::study
             u[d] = value_at(constrained, x, d);
           return u;
         };
+      if (!scene.time.is_dynamic() && !scene.problem.loads.empty())
+        solid.load =
+            [load = physics::Expression("Problem/load", scene.problem.loads.front().expression,
+                                        scene.names(horizon))](const Point<dim> &x)
+        {
+          Tensor<1, dim> b;
+          for (unsigned int d = 0; d < dim; ++d)
+            b[d] = value_at(load, x, d);
+          return b;
+        };
       solid.surface_terms = scene.fracture.surface_terms;
       solid.toughness = [toughness](const Point<dim> &x) { return value_at(toughness, x, 0); };
       solid.takes_least_toughness = scene.fracture.of_bonds == problem::BondToughness::minimum;
@@ -126,24 +136,6 @@ namespace plumbline::study
                                             : ", each node's dilatation with its own constants");
     }
 
-    /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
-    /// over G, that one needs in a strip whose height is eight horizons.
-    double find_trapping(const scene::Scene &scene, const Method &method,
-                         const physics::Kernel<2> &influence, double h)
-    {
-      const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
-      const physics::Lame lame = scene.material.lame()(scene.domain.cracks.front().back());
-      // as far from the left end as the crack is long, farther from the right one
-      return grow_through_strip(*method.strip_solver(),
-                                {{height, 5 * height, 2 * height, h, {}},
-                                 4,
-                                 lame,
-                                 scene.fracture.surface_terms,
-                                 scene.geometry.backend},
-                                influence)
-          ->peak;
-    }
-
     /// The middle of the body along an axis.
     template <class Box>
     double middle(const std::vector<Box> &boxes, unsigned int axis)
@@ -155,6 +147,27 @@ namespace plumbline::study
         upper = std::max(upper, box.upper[axis]);
       }
       return .5 * (lower + upper);
+    }
+
+    /// By what G is to be divided for a crack to go on at G in this lattice: the largest energy,
+    /// over G, that one needs in a strip whose height is eight horizons.
+    double find_trapping(const scene::Scene &scene, const Method &method,
+                         const physics::Kernel<2> &influence, double h)
+    {
+      const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
+      const physics::Lame lame = scene.material.lame()(
+          scene.domain.cracks.empty() ? Point<2>(middle(scene.domain.boxes.include, 0),
+                                                 middle(scene.domain.boxes.include, 1))
+                                      : scene.domain.cracks.front().back());
+      // as far from the left end as the crack is long, farther from the right one
+      return grow_through_strip(*method.strip_solver(),
+                                {{height, 5 * height, 2 * height, h, {}},
+                                 4,
+                                 lame,
+                                 scene.fracture.surface_terms,
+                                 scene.geometry.backend},
+                                influence)
+          ->peak;
     }
 
     /// The mean of E/(1 - nu²) in plane strain over nodes.
@@ -296,15 +309,20 @@ namespace plumbline::study
   {
     const problem::Level &level = scene.study.series.front().levels.front();
     const double m = level.horizon / level.h;
-    const Point<2> tip = scene.domain.cracks.front().back(), mouth = scene.domain.cracks.front()[0];
-    const bool is_in_space = scene.domain.is_in_space();
+    const auto &cracks = scene.domain.cracks;
+    const bool is_in_space = scene.domain.is_in_space(), has_notch = !cracks.empty();
+    const Point<2> tip = has_notch ? cracks.front().back() : Point<2>(),
+                   mouth = has_notch ? cracks.front()[0] : Point<2>();
     GrowthSize size;
-    double way = 0, layers = 1; // along x from the notch's tip to the far side; of nodes in z
+    double way = 0,
+           layers = 1; // along x from the notch's tip, if any, to the far side; of nodes in z
     const auto add_box = [&](const auto &box)
     {
       size.n_nodes +=
           (box.upper[0] - box.lower[0]) * (box.upper[1] - box.lower[1]) / (level.h * level.h);
-      way = std::max(way, tip[0] >= mouth[0] ? box.upper[0] - tip[0] : tip[0] - box.lower[0]);
+      way = std::max(way, !has_notch           ? box.upper[0] - box.lower[0]
+                          : tip[0] >= mouth[0] ? box.upper[0] - tip[0]
+                                               : tip[0] - box.lower[0]);
     };
     if (!is_in_space)
       for (const geometry::Box &box : scene.domain.boxes.include)
@@ -334,10 +352,10 @@ namespace plumbline::study
     size.multigrid_bytes = 400 * size.n_bonds + 44 * n_entries;
     size.solver = scene.fracture.solver;
     if (size.solver == problem::GrowthSolver::automatic)
-      size.solver =
-          scene.fracture.can_iterate() && n_jobs * size.factor_bytes > base::available_memory()
-              ? problem::GrowthSolver::multigrid
-              : problem::GrowthSolver::factor;
+      size.solver = scene.fracture.can_iterate() && scene.problem.loads.empty() &&
+                            n_jobs * size.factor_bytes > base::available_memory()
+                        ? problem::GrowthSolver::multigrid
+                        : problem::GrowthSolver::factor;
     // 18 a column of nodes at m = 3 in the plane
     size.n_breaks = (is_in_space ? .25 * M_PI * m * layers : 2. / 3) * m * m * m * way / level.h;
     // a solution for each bond, 2 ns an entry of the factor, and half of that for updates and new
@@ -363,7 +381,8 @@ namespace plumbline::study
                                     "a body of " + base::to_text(size.n_nodes, 3) + " nodes",
                                     "choose a larger h (Study/h)", n_jobs);
       const bool is_factor = size.solver == problem::GrowthSolver::factor;
-      const bool may_iterate = is_factor && scene.fracture.can_iterate();
+      const bool may_iterate =
+          is_factor && scene.fracture.can_iterate() && scene.problem.loads.empty();
       base::require_memory(
           is_factor ? size.factor_bytes : size.multigrid_bytes,
           "Study/h = " + base::to_text(scene.study.series.front().levels.front().h, 4) +
@@ -557,6 +576,10 @@ namespace plumbline::study
           run_growth(*model.body, {scene.fracture, "plumbline grow\n" + scene.text, checkpoints});
       record.cost.solve_seconds = timer.seconds();
       set_work(model.body->work(), record);
+      if constexpr (dim == 2)
+        if (const auto nucleus = find_nucleus(model, growth.events);
+            nucleus && scene.domain.cracks.empty())
+          model.notch_tip = *nucleus;
       const auto found = find_out(scene, model, std::move(growth));
       write_moments(found, write);
       return growth_record(std::move(record), found);

@@ -132,8 +132,11 @@ namespace plumbline::meshfree
             number[geometry::number_within(cell, n)] = static_cast<int>(network.nodes.size());
             network.nodes.push_back(x);
             network.grip.push_back(grip_of(solid.grips, x, network.h));
-            network.constrained.push_back(network.grip.back() < 0 ? Tensor<1, dim>()
-                                                                  : solid.constrained(x));
+            const bool is_free = network.grip.back() < 0;
+            network.constrained.push_back(is_free ? Tensor<1, dim>() : solid.constrained(x));
+            if (solid.load)
+              network.loads.push_back(is_free ? cell_volume<dim>(network.h) * solid.load(x)
+                                              : Tensor<1, dim>());
           });
       for (std::size_t g = 0; g < solid.grips.size(); ++g)
         if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==

@@ -42,8 +42,10 @@ namespace plumbline::meshfree
 
     double h = 0, horizon = 0; ///< [length]
     std::vector<Point<dim>> nodes;
-    std::vector<int> grip;                        ///< of each node, -1: free
-    std::vector<Tensor<1, dim>> constrained;      ///< u of each node at load 1, 0 where it is free
+    std::vector<int> grip;                   ///< of each node, -1: free
+    std::vector<Tensor<1, dim>> constrained; ///< u of each node at load 1, 0 where it is free
+    /// Dead load at load 1, shape (n_nodes), 0 at grips; empty: none [force].
+    std::vector<Tensor<1, dim>> loads = {};
     std::vector<Bond> bonds;                      ///< that are whole at the beginning, each once
     std::vector<double> toughness;                ///< G of each of them [force/length]
     std::vector<std::array<unsigned int, 2>> cut; ///< nodes of bonds that the notch has cut

@@ -29,8 +29,9 @@ namespace plumbline::meshfree
   {
     factor();
     if (is_separated())
-      throw InputError("Domain/fixed: no path of bonds joins the grips; let the notch "
-                       "(Domain/cracks) end in the body, or mend Domain/boxes");
+      throw InputError(
+          "Domain/fixed: no path of bonds joins the grips, or what is loaded; let the notch "
+          "(Domain/cracks) end in the body, or mend Domain/boxes");
   }
 
   template <int dim>
@@ -55,6 +56,21 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  std::size_t BreakingNetwork<dim>::n_loaded() const
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < network_.loads.size(); ++i)
+      n += network_.loads[i].norm_square() > 0 && !connections_->is_loose(i) ? 1 : 0;
+    return n;
+  }
+
+  template <int dim>
+  bool BreakingNetwork<dim>::is_separated() const
+  {
+    return connections_->is_separated() || (!network_.loads.empty() && n_loaded() == 0);
+  }
+
+  template <int dim>
   void BreakingNetwork<dim>::restart(const std::vector<std::size_t> &broken)
   {
     broken_ = broken;
@@ -70,7 +86,10 @@ namespace plumbline::meshfree
     if (refactor_ == Refactor::always || cost * static_cast<double>(n_events_) > seconds_)
       return false;
     const base::CpuTimer timer;
+    const std::size_t n_before = n_loaded();
     connections_->break_bonds(bonds);
+    if (n_loaded() != n_before) // the right-hand side is another
+      return false;
     equations_->take_out(bonds, *connections_);
     if (!equilibrate())
       return false;
@@ -116,6 +135,7 @@ namespace plumbline::meshfree
   {
     Release result = release(bonds);
     const std::vector<double> pull = pull_;
+    const NodeField<dim> u = network_.loads.empty() ? NodeField<dim>() : u_;
     std::vector<double> theta = theta_;
     for (const std::size_t b : bonds) // of what stays whole
       if (!theta.empty())
@@ -130,6 +150,9 @@ namespace plumbline::meshfree
     for (std::size_t b = 0; b < network_.bonds.size(); ++b)
       if (connections_->is_whole(b))
         result.relaxing += .5 * network_.bonds[b].stiffness * square(pull_[b] - pull[b]);
+    const NodeField<dim> loads = connections_->loads();
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      result.work += loads[i] * (u_[i] - u[i]);
     for (std::size_t i = 0; i < theta.size(); ++i)
       result.relaxing += .5 * network_.dilatation[i] * square(theta_[i] - theta[i]);
     return result;
@@ -202,6 +225,9 @@ namespace plumbline::meshfree
     }
     for (std::size_t i = 0; i < theta_.size(); ++i)
       response_.energy += .5 * network_.dilatation[i] * square(theta_[i]);
+    const NodeField<dim> loads = connections_->loads();
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      response_.reaction += loads[i] * u_[i];
     if constexpr (dim == 2)
       if (surfaces_) // they act on nodes in grips too
       {
@@ -223,6 +249,9 @@ namespace plumbline::meshfree
         sums = surfaces_->forces(u_);
     if (!surfaces_)
       sums = forces(network_, *connections_, u_, theta_);
+    const NodeField<dim> loads = connections_->loads();
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      sums[i] += loads[i];
     double largest = 0;
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (network_.grip[i] < 0)

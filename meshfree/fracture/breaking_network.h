@@ -17,9 +17,9 @@ namespace plumbline::meshfree
   };
 
   /// A bond network in equilibrium while its bonds break. What hangs loose (see Connections<dim>)
-  /// carries no force. With surface terms (see SurfaceForces) its energies are those of the bonds
-  /// and dilatations that it has, but its forces have no energy.
-  /// Instantiated for dim = 2 and 3.
+  /// carries no force and no dead load. With surface terms (see SurfaceForces) its energies are
+  /// those of the bonds and dilatations that it has, but its forces have no energy. Instantiated
+  /// for dim = 2 and 3.
   template <int dim>
   class BreakingNetwork : public method::QuasistaticFractureModel
   {
@@ -38,7 +38,7 @@ namespace plumbline::meshfree
     const Response &response() const override { return response_; }
     Release break_bonds(const std::vector<std::size_t> &bonds) override;
     void restart(const std::vector<std::size_t> &broken) override;
-    bool is_separated() const override { return connections_->is_separated(); }
+    bool is_separated() const override;
     bool has_energy() const override { return !network_.surfaces; }
     const Work &work() const override { return work_; }
 
@@ -53,6 +53,7 @@ namespace plumbline::meshfree
     bool equilibrate();
     void evaluate();
     double residual() const;
+    std::size_t n_loaded() const; ///< nodes with a dead load that are not loose
     double critical_load(const typename BondNetwork<dim>::Bond &bond) const;
     Release release(const std::vector<std::size_t> &bonds) const;
 

@@ -150,6 +150,16 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  std::vector<Tensor<1, dim>> Connections<dim>::loads() const
+  {
+    std::vector<Tensor<1, dim>> loads = network_->loads;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (is_loose(i))
+        loads[i] = {};
+    return loads;
+  }
+
+  template <int dim>
   void Connections<dim>::hold(const std::vector<Tensor<1, dim>> &mode)
   {
     constexpr double moves = 1e-6; // of the largest displacement

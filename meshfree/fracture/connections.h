@@ -37,6 +37,9 @@ namespace plumbline::meshfree
     const std::vector<Hold> &holds() const { return holds_; } ///< as they came about
     bool is_loose(std::size_t node) const { return is_loose_[node] != 0; }
 
+    /// Dead loads of the nodes that are not loose: those of loose ones are taken off.
+    std::vector<Tensor<1, dim>> loads() const;
+
     /// Hold a mechanism where it moves most.
     /// @param mode  displacements that strain no bond, shape (n_nodes)
     void hold(const std::vector<Tensor<1, dim>> &mode);

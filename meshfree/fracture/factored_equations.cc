@@ -74,7 +74,8 @@ namespace plumbline::meshfree
         cholesky_ = algebra::UpdatedCholesky::factor(all.rows, all.factors, n_unknowns());
         if (cholesky_)
         {
-          std::vector<double> b(n_unknowns());
+          std::vector<double> b = network_->loads.empty() ? std::vector<double>(n_unknowns())
+                                                          : terms_.free(connections.loads());
           for (std::size_t t = 0; t < all.factors.size(); ++t)
             for (std::size_t k = all.rows.start[t]; k < all.rows.start[t + 1]; ++k)
               b[all.rows.column[k]] -= all.factors[t] * all.offsets[t] * all.rows.value[k];

@@ -396,7 +396,7 @@ TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
                  "write uncorrected");
   expect_refused(set("Fracture/criterion=calibrated"), "write toughness");
   expect_refused(set("Domain/cracks=-0.1, 0.55 : 0.4, 0.55"), "goes through node");
-  expect_refused(set("Domain/cracks="), "this is missing: Domain/cracks (the notch)");
+  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
   expect_refused(set("Domain/cracks=-0.1, 0.5 : 3, 0.5"), "no path of bonds joins the grips");
   expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
   expect_refused(set("Domain/fixed=0, 0, 0 : 1, 1, 1"), "is not allowed");
@@ -420,7 +420,6 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Fracture/toughness=x < 0.6 ? 1 : 0"), "give a positive value for each phase");
   expect_refused(set("Material/E=x < 0.6 ? 1 : 0"), "Young's modulus E = 0");
   expect_refused(set("Fracture/toughness=x, y"), "one component");
-  expect_refused(set("Domain/cracks="), "this is missing: Domain/cracks (the notch)");
   expect_refused(set("Domain/cracks=-1, 0 : -0.5, 0"), "the notch lies outside of the body");
   expect_refused(set("Domain/cracks=-0.1, 0.0125 : 0.5, 0.0125"), "goes through node");
   expect_refused(set("Domain/cracks=-0.1, 0 : 3, 0"), "no path of bonds joins the grips");
@@ -429,7 +428,10 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Domain/fixed=0, -0.5 : 2, 0.5"), "holds all nodes");
   expect_refused(set("Domain/boundary=constrained"), "Domain/boundary = free");
   expect_refused(set("Problem/constraint=solution"), "the displacement of the grips at load 1");
-  expect_refused(set("Problem/load=1, 0"), "neither solution nor load");
+  expect_refused(set("Problem/load=a: 1, 0; b: 0, 1"), "no more than one load");
+  expect_refused(set("Problem/load=1"), "Problem/load of 2 components");
+  expect_refused(set("Problem/load=1, 0") + " --set Fracture/solver=multigrid",
+                 "because Problem/load is given");
   expect_refused(set("Material/nu=0.6"), "nu");
   expect_refused(set("Material/model=variational"), "take LPS");
   expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");

@@ -45,6 +45,9 @@ namespace
     while (events.size() < n_events)
     {
       Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+      for (std::size_t i = 0; i < net.loads.size(); ++i)
+        for (unsigned int d = 0; d < 2 && unknown[i] >= 0; ++d)
+          b[unknown[i] + static_cast<int>(d)] = net.loads[i][d];
       std::vector<Eigen::Triplet<double>> entries;
       // k (c·u + o)² of a linear form c over nodes
       const auto add = [&](double k, const std::map<unsigned int, Tensor<1, 2>> &form)
@@ -154,6 +157,48 @@ TEST(Fracture, events_are_those_of_brute_force_on_a_plate_with_dilatations)
   expect_same_as_brute_force(plate(40, 20, 20 * h, .35), 60);
   expect_same_as_brute_force(plate(40, 20, 20 * h, .1), 30);
   expect_same_as_brute_force(layers(40, 20, 20 * h), 40);
+}
+
+namespace
+{
+  /// The plate without its upper grip, which a traction pulls in its last row instead.
+  BreakingSolid<2> pulled(BreakingSolid<2> solid)
+  {
+    const double top = solid.grips[0].upper[1];
+    solid.grips.erase(solid.grips.begin());
+    solid.constrained = [](const Point<2> &) { return Tensor<1, 2>(); };
+    solid.load = [top](const Point<2> &x) {
+      return x[1] > top - h ? Tensor<1, 2>({0, 1 / h}) : Tensor<1, 2>();
+    };
+    return solid;
+  }
+} // namespace
+
+TEST(Fracture, events_under_a_traction_are_those_of_brute_force)
+{
+  for (const double nu : {.25, .3})
+    expect_same_as_brute_force(pulled(plate(20, 14, .3, nu)), 10);
+}
+
+TEST(Fracture, traction_and_grips_superpose_and_the_energy_is_accounted_for)
+{
+  const BreakingSolid<2> grips = plate(20, 14, .3, .3);
+  BreakingSolid<2> load = grips, both = grips;
+  load.constrained = [](const Point<2> &) { return Tensor<1, 2>(); };
+  load.load = both.load = [](const Point<2> &x) { return Tensor<1, 2>({x[1], 1 + x[0]}); };
+  const auto reaction = [](const BreakingSolid<2> &solid)
+  { return BreakingNetwork<2>(network(solid), problem::Stretch::linear).response().reaction; };
+  // by Betti's theorem the work of each through the other cancels
+  EXPECT_NEAR(reaction(both), reaction(grips) + reaction(load), 1e-12 * reaction(both));
+
+  BreakingNetwork<2> body(network(pulled(grips)), problem::Stretch::linear);
+  EXPECT_NEAR(body.response().energy, .5 * body.response().reaction,
+              1e-12 * body.response().energy);
+  const Growth growth = grow(body, rules());
+  EXPECT_EQ(growth.end, problem::GrowthEnd::parted);
+  EXPECT_TRUE(growth.is_separated);
+  for (const Event &event : growth.events)
+    EXPECT_LT(event.imbalance(), 1e-10);
 }
 
 // Of long strips between rigid grips: each length more costs half of the layers' modulus in series

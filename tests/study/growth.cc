@@ -156,6 +156,36 @@ TEST(Growth, a_path_may_step_to_the_next_row)
   EXPECT_EQ(path.n_elsewhere, 2u);
 }
 
+TEST(Growth, a_crack_begins_where_the_first_neighbours_part_if_there_is_no_notch)
+{
+  GrowthModel model = comb(8);
+  model.bonds.insert(model.bonds.end(), model.cut.begin(), model.cut.end());
+  model.cut.clear();
+  model.bonds.push_back({0, 8 + 1}); // not between next neighbours
+  const std::size_t oblique = model.bonds.size() - 1;
+  const std::vector<Event> events = {event({oblique}), event({bond(model, 4.5, 0)}),
+                                     event({bond(model, 7.5, 1)}), event({bond(model, 3.5, 0)})};
+  EXPECT_FALSE(study::find_nucleus(model, {events[0]}));
+  const auto nucleus = study::find_nucleus(model, events);
+  ASSERT_TRUE(nucleus);
+  EXPECT_LT(nucleus->distance({4.5, 0}), 1e-12);
+  model.notch_tip = *nucleus;
+  GrowthFindings found;
+  found.growth.events = events;
+  found.notch_tip = *nucleus;
+  found.origin = {10, 20};
+  found.path = find_path(model, events);
+  EXPECT_TRUE(found.path.notch.empty());
+  EXPECT_EQ(found.path.n_elsewhere, 1u);
+  EXPECT_LT(found.path.tips[0].distance({4.5, 0}), 1e-12);
+  EXPECT_LT(found.path.tips[3].distance({3, 0}), 1e-12);
+  const analysis::Record record = growth_record({}, found);
+  EXPECT_EQ(record["nucleus x"], 14.5);
+  EXPECT_EQ(record["nucleus y"], 20);
+  EXPECT_EQ(record["first advance event"], 1);
+  EXPECT_NEAR(record["advance"], 1.5, 1e-12);
+}
+
 TEST(Growth, begins_at_the_first_break_and_at_the_first_advance)
 {
   const GrowthModel model = comb(8);
