@@ -6,6 +6,8 @@
 #include "scene/on_line.h"
 #include "scene/values.h"
 
+#include <set>
+
 namespace plumbline::scene
 {
   namespace
@@ -158,8 +160,10 @@ namespace plumbline::scene
     /// time.
     bool is_of_steps(const Scene &scene, const std::string &key)
     {
+      static const std::set<std::string> keys = {"Time/schemes", "Time/steps",
+                                                 "Time/critical fractions"};
       return scene.material.model == &double_well() && scene.domain.is_periodic &&
-             (key == "Time/schemes" || key == "Time/steps" || key == "Time/critical fractions");
+             keys.count(key) > 0;
     }
 
     /// A key that has an effect only if another key is given.

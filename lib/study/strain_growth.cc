@@ -17,6 +17,8 @@ namespace plumbline::study
 
   namespace
   {
+    constexpr const char *of_tangent = "linear"; ///< the column of rates by a method's own tangent
+
     using physics::SymmetricMatrix;
     using Wave = std::array<double, 2>;
 
@@ -216,7 +218,7 @@ namespace plumbline::study
                    {"k2", "1/length", {}},
                    {"symbol", "1/time", {}},
                    {"local", "1/time", {}},
-                   {"linear", "1/time", {}},
+                   {of_tangent, "1/time", {}},
                    {"observed", "1/time", {}}};
     for (std::size_t i = 0; i < one.observed.size(); ++i)
     {
@@ -242,7 +244,7 @@ namespace plumbline::study
     const Curve &growth = record.curves.at("growth");
     const auto linear =
         std::find_if(growth.begin(), growth.end(),
-                     [](const analysis::Column &column) { return column.name == "linear"; });
+                     [](const analysis::Column &column) { return column.name == of_tangent; });
     double step = 0;
     for (const StepRule &rule : step_rules(time))
       step = std::max(step, rule.is_fraction ? rule.value * critical : rule.value);
