@@ -140,7 +140,7 @@ namespace plumbline::python
     py::dict matrix_in_space(const problem::Problem<3> &given, const std::string &name,
                              const std::optional<double> &h)
     {
-      const auto found = to_method_in_space(name, given.mesh != nullptr);
+      const auto found = to_method_in_space(name, given);
       require_length(h);
       if (h && given.cells)
         throw InputError(

@@ -267,17 +267,26 @@ namespace plumbline::python
                        "; choose another one (plumbline.methods())");
   }
 
-  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name, bool is_on_mesh)
+  std::shared_ptr<const method::Method> to_method_in_space(const std::string &name,
+                                                           const problem::Problem<3> &problem)
   {
     auto method = to_method(py::str(name));
     if (method->can().count(method::Capability::space) == 0)
       throw InputError("method '" + name +
                        "' is for two dimensions only; choose a meshfree rule, Q1, Q2, DGQ0, "
                        "DGQ1 or DGQ2, or P1, DGP0 or DGP1 on tetrahedra");
-    if (is_on_mesh && method->can_in_space().count(method::Capability::triangles) == 0)
-      throw InputError("method '" + name +
-                       "' is for lattices of cubes, and this problem is on a mesh of tetrahedra; "
-                       "choose P1, DGP0, DGP1 or a meshfree rule");
+    if (!problem.mesh)
+      return method;
+    const method::Capabilities can = method->can_in_space();
+    if (can.count(method::Capability::triangles) == 0 &&
+        (problem.mesh->hexahedra.empty() || can.count(method::Capability::quadrilaterals) == 0))
+      throw InputError("method '" + name + "' is for lattices of cubes" +
+                       (problem.mesh->hexahedra.empty()
+                            ? " or hexahedra, and this problem is on a mesh of tetrahedra; choose "
+                            : ", and this problem is on a mesh of hexahedra; choose Q1, DGQ0, ") +
+                       "P1, DGP0, DGP1 or a meshfree rule");
+    if (const std::string why = method->why_not_in_space(problem.kernel, true); !why.empty())
+      throw InputError("method '" + name + "': " + why);
     return method;
   }
 

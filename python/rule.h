@@ -40,7 +40,8 @@ namespace plumbline::python
   void refuse_unless_able(const method::Method &method, const problem::Problem<2> &problem);
 
   /// A method for three dimensions by its name.
-  /// @throws InputError  unknown name, or a method for the plane alone
+  /// @throws InputError  unknown name, or a method for the plane alone, or for other cells or
+  /// kernels than the problem's
   std::shared_ptr<const method::Method> to_method_in_space(const std::string &name,
-                                                           bool is_on_mesh);
+                                                           const problem::Problem<3> &problem);
 } // namespace plumbline::python

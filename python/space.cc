@@ -117,7 +117,7 @@ namespace plumbline::python
           given_solution("solution", solution);
       if (box.is_none() == mesh.is_none() || !(mesh.is_none() || exclude.is_none()))
         throw InputError("Problem: give the domain either by box (and exclude), or by mesh, the "
-                         "name of a gmsh file of tetrahedra");
+                         "name of a gmsh file of tetrahedra or hexahedra");
       const auto tetrahedra = to_mesh(mesh, h, kernel.horizon());
       const geometry::CubeLattice lattice =
           tetrahedra
@@ -126,9 +126,8 @@ namespace plumbline::python
       ProblemInSpace problem = problem_of(lattice, kernel, lame);
       problem.mesh = tetrahedra;
       if (tetrahedra && (!nodes.is_none() || !lame.is_none()))
-        throw InputError(
-            "mesh cannot be combined with nodes or lame: on tetrahedra nodes are their "
-            "centroids, and models are bond-based; omit these");
+        throw InputError("mesh cannot be combined with nodes or lame: on a mesh nodes are the "
+                         "centroids of its cells, and models are bond-based; omit these");
       if (tetrahedra)
         problem.cells =
             std::make_shared<const geometry::NodeCells<3>>(geometry::centroid_nodes(*tetrahedra));
@@ -169,7 +168,7 @@ namespace plumbline::python
 
     SolvedInSpace solve(std::shared_ptr<const ProblemInSpace> of, const std::string &name)
     {
-      const auto method = to_method_in_space(name, of->mesh != nullptr);
+      const auto method = to_method_in_space(name, *of);
       const py::gil_scoped_release others;
       return {of, name, analysis::solve(*method, *of)};
     }
@@ -285,7 +284,8 @@ namespace plumbline::python
 
 Problem(kernel, *, box, h, nodes=None, exclude=None, load=None, constraint=None, solution=None,
         lame=None)
-Problem(kernel, *, mesh="ball.msh", h, ...)   tetrahedra of gmsh, for P1, DGP0, DGP1 and meshfree rules
+Problem(kernel, *, mesh="ball.msh", h, ...)   tetrahedra or hexahedra of gmsh, for P1, DGP0, DGP1 and
+                                              meshfree rules, on hexahedra also Q1, DGQ0
 
 kernel      of the bonds; with lame, the influence function (only its profile and horizon are used)
 box         corners ((x0, y0, z0), (x1, y1, z1)), or a list of such boxes [length]; exclude: boxes to remove from

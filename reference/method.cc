@@ -40,8 +40,9 @@ namespace plumbline::reference
         return std::string(is_continuous_ ? "continuous" : "discontinuous") +
                " Galerkin of degree " + std::to_string(degree_) +
                (n_vertices_ == 4
-                    ? " on quadrilaterals; entries exact to round-off on lattices and "
-                      "axis-aligned rectangles"
+                    ? std::string(" on quadrilaterals; entries exact to round-off on lattices and "
+                                  "axis-aligned rectangles") +
+                          (is_on_hexahedra() ? "; in three dimensions on cubes or hexahedra" : "")
                     : std::string(" on triangles") +
                           (is_on_tetrahedra()
                                ? ", in three dimensions on tetrahedra (six per cube, or of a mesh)"
@@ -69,14 +70,19 @@ namespace plumbline::reference
       method::Capabilities can_in_space() const override
       {
         using method::Capability;
-        if (n_vertices_ == 4 || can().count(Capability::space) == 0)
-          return can();
-        return {Capability::lattice, Capability::meshes, Capability::triangles,
-                Capability::nonlocal, Capability::space};
+        method::Capabilities all = can();
+        if (all.count(Capability::space) == 0)
+          return all;
+        if (n_vertices_ == 3)
+          return {Capability::lattice, Capability::meshes, Capability::triangles,
+                  Capability::nonlocal, Capability::space};
+        if (!is_on_hexahedra())
+          all.erase(Capability::quadrilaterals);
+        return all;
       }
-      std::string why_not_in_space(const physics::Kernel<3> &kernel) const override
+      std::string why_not_in_space(const physics::Kernel<3> &kernel, bool is_on_mesh) const override
       {
-        return n_vertices_ == 4 ? "" : FacePotential::refuse(kernel);
+        return n_vertices_ == 3 || is_on_mesh ? FacePotential::refuse(kernel) : "";
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {
@@ -120,6 +126,8 @@ namespace plumbline::reference
       {
         if (n_vertices_ == 3)
           return discretise_on_tetrahedra(problem, tetrahedral_shapes());
+        if (problem.mesh)
+          return discretise_on_tetrahedra(problem, tetrahedral_shapes().on_hexahedra());
         const AxisShapes shapes(is_continuous_, degree_);
         if (shapes.families().size() == 1)
           return discretise_on_box(problem, shapes);
@@ -159,6 +167,8 @@ namespace plumbline::reference
           return expected_mesh_bytes(size, n_vertices_, is_continuous_, degree_);
         if (n_vertices_ == 3)
           return expected_bytes_on_tetrahedra(size, tetrahedral_shapes());
+        if (size.depth > 0 && size.n_cells > 0 && is_on_hexahedra())
+          return expected_bytes_on_tetrahedra(size, tetrahedral_shapes().on_hexahedra());
         const unsigned int n_axis = is_continuous_ ? degree_ : degree_ + 1;
         const unsigned int n_families = n_axis * n_axis * (size.depth > 0 ? n_axis : 1);
         return method::expected_lattice_bytes(size, n_families, size.n_components,
@@ -174,6 +184,8 @@ namespace plumbline::reference
       bool has_one_family() const { return degree_ == (is_continuous_ ? 1 : 0); }
 
       bool is_on_tetrahedra() const { return n_vertices_ == 3 && degree_ <= 1 && !by_quadrature_; }
+      /// Q1 and DGQ0.
+      bool is_on_hexahedra() const { return n_vertices_ == 4 && has_one_family(); }
       TetrahedralShapes tetrahedral_shapes() const
       {
         return is_continuous_ || degree_ == 0 ? TetrahedralShapes(is_continuous_)

@@ -5,6 +5,7 @@
 #include "geometry/curved_mesh.h"
 #include "geometry/gmsh_process.h"
 #include "geometry/gmsh_script.h"
+#include "geometry/hexahedron.h"
 #include "geometry/msh_file.h"
 #include "geometry/tetrahedral_check.h"
 
@@ -64,17 +65,20 @@ namespace plumbline::geometry
       constexpr auto unused = static_cast<unsigned int>(-1);
       std::vector<unsigned int> number(mesh.vertices.size(), unused);
       std::vector<dealii::Point<3>> used;
-      for (auto &cell : mesh.cells)
-        for (unsigned int &vertex : cell)
+      const auto keep = [&](unsigned int &vertex)
+      {
+        unsigned int &place = number[vertex];
+        if (place == unused)
         {
-          unsigned int &place = number[vertex];
-          if (place == unused)
-          {
-            place = static_cast<unsigned int>(used.size());
-            used.push_back(mesh.vertices[vertex]);
-          }
-          vertex = place;
+          place = static_cast<unsigned int>(used.size());
+          used.push_back(mesh.vertices[vertex]);
         }
+        vertex = place;
+      };
+      for (auto &cell : mesh.cells)
+        std::for_each(cell.begin(), cell.end(), keep);
+      for (auto &cell : mesh.hexahedra)
+        std::for_each(cell.begin(), cell.end(), keep);
       mesh.vertices = std::move(used);
     }
 
@@ -240,6 +244,18 @@ namespace plumbline::geometry
           std::reverse(cell.vertex.begin(), cell.vertex.begin() + cell.n_vertices);
     }
 
+    /// Hexahedra that are turned inside out run from their upper face to the lower one instead.
+    TetrahedralMesh cut_hexahedra(TetrahedralMesh mesh)
+    {
+      const dealii::Point<3> middle(.5, .5, .5);
+      for (std::size_t k = 0; k < mesh.hexahedra.size(); ++k)
+        if (auto &cell = mesh.hexahedra[k];
+            dealii::determinant(Hexahedron(mesh, k).jacobian(middle)) < 0)
+          std::rotate(cell.begin(), cell.begin() + 4, cell.end());
+      return six_per_hexahedron(std::move(mesh.vertices), std::move(mesh.hexahedra),
+                                mesh.is_inside);
+    }
+
     // ---- lattices -------------------------------------------------------------------------------
 
     /// The squares of Ω and those less than `reach` from it.
@@ -315,8 +331,11 @@ namespace plumbline::geometry
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
       if (determinant(mesh, cell) < 0)
         std::swap(mesh.cells[cell][2], mesh.cells[cell][3]);
+    if (!mesh.hexahedra.empty())
+      mesh = cut_hexahedra(std::move(mesh));
     try
     {
+      check_hexahedra(mesh);
       check(mesh);
     }
     catch (const InputError &error)

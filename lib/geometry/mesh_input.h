@@ -22,9 +22,10 @@ namespace plumbline::geometry
   Mesh read_mesh(const std::string &file, double h, double delta, bool has_collar = true,
                  bool is_curved = false);
 
-  /// The same for tetrahedra of first order in physical volumes, for problems in space; .geo files
-  /// are meshed in three dimensions. Inverted cells are turned around.
-  /// @throws InputError  as read_mesh, read_msh_tetrahedra and `check` of such a mesh
+  /// The same for tetrahedra or hexahedra of first order in physical volumes, for problems in
+  /// space; .geo files are meshed in three dimensions. Inverted cells are turned around.
+  /// @throws InputError  as read_mesh, read_msh_tetrahedra, check_hexahedra and `check` of such a
+  /// mesh
   TetrahedralMesh read_tetrahedra(const std::string &file, double h, double delta);
 
   /// One of deal.II's GridGenerator functions by name, e.g. "hyper_ball_balanced" with "0, 0 : 1",

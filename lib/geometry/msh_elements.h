@@ -10,7 +10,7 @@ namespace plumbline::geometry::msh
 {
   // types of elements
 
-  inline constexpr long triangle = 2, quadrilateral = 3, tetrahedron = 4;
+  inline constexpr long triangle = 2, quadrilateral = 3, tetrahedron = 4, hexahedron = 5;
   /// Of second, third and fourth order: corners, then points on the sides, then inner ones.
   struct HighTriangle
   {
@@ -26,8 +26,8 @@ namespace plumbline::geometry::msh
                                                 45L, 46L, 47L, 48L, 49L, 50L, 51L};
 
   // of first order, then of second order with all points, and without inner ones
-  inline constexpr std::array hexahedra = {5L, 12L, 17L}, prisms = {6L, 13L, 18L},
-                              pyramids = {7L, 14L, 19L};
+  inline constexpr std::array prisms = {6L, 13L, 18L}, pyramids = {7L, 14L, 19L};
+  inline constexpr std::array other_hexahedra = {12L, 17L};
   inline constexpr std::array other_tetrahedra = {11L, 29L, 30L, 31L, 32L, 33L, 71L, 72L,
                                                   73L, 74L, 75L, 79L, 80L, 81L, 82L, 83L};
   template <std::size_t n>
@@ -49,18 +49,19 @@ namespace plumbline::geometry::msh
     return type == triangle || type == quadrilateral || is_one_of(other_surfaces, type);
   }
 
-  /// Of a volume, and no tetrahedron of first order.
+  /// Of a volume, and no tetrahedron or hexahedron of first order.
   inline bool is_other_volume(long type)
   {
     constexpr long first_high = 90, last_high = 125; // prisms, hexahedra and pyramids
-    return is_one_of(hexahedra, type) || is_one_of(prisms, type) || is_one_of(pyramids, type) ||
-           is_one_of(other_tetrahedra, type) || (type >= first_high && type <= last_high);
+    return is_one_of(other_hexahedra, type) || is_one_of(prisms, type) ||
+           is_one_of(pyramids, type) || is_one_of(other_tetrahedra, type) ||
+           (type >= first_high && type <= last_high);
   }
 
-  /// " (hexahedra)"; of other cells than those of low order empty.
+  /// " (prisms)"; of other cells than those of low order empty.
   inline std::string volume_name(long type)
   {
-    return is_one_of(hexahedra, type)          ? " (hexahedra)"
+    return is_one_of(other_hexahedra, type)    ? " (hexahedra of higher order)"
            : is_one_of(prisms, type)           ? " (prisms)"
            : is_one_of(pyramids, type)         ? " (pyramids)"
            : is_one_of(other_tetrahedra, type) ? " (tetrahedra of higher order)"
@@ -70,6 +71,6 @@ namespace plumbline::geometry::msh
   struct Cell
   {
     long group = 0, entity = 0, type = 0;
-    std::array<unsigned int, 4> vertex{};
+    std::array<unsigned int, 8> vertex{}; ///< as many as its type has
   };
 } // namespace plumbline::geometry::msh

@@ -24,7 +24,8 @@ namespace plumbline::geometry
     constexpr long most = std::numeric_limits<int>::max();
     constexpr long any_tag = std::numeric_limits<long>::max();
 
-    using msh::find_high, msh::is_one_of, msh::quadrilateral, msh::tetrahedron, msh::triangle;
+    using msh::find_high, msh::hexahedron, msh::is_one_of, msh::quadrilateral, msh::tetrahedron,
+        msh::triangle;
     using Section = MshSection;
 
     std::string begin_of(Section section)
@@ -104,7 +105,9 @@ namespace plumbline::geometry
         {
           if (cell.group != last)
             mesh.groups.push_back(names_.at(last = cell.group));
-          mesh.cells.push_back({cell.vertex, cell.type == triangle ? 3U : 4U,
+          const auto &v = cell.vertex;
+          mesh.cells.push_back({{v[0], v[1], v[2], v[3]},
+                                cell.type == triangle ? 3U : 4U,
                                 is_omega.at(cell.group),
                                 static_cast<unsigned int>(mesh.groups.size() - 1)});
         }
@@ -120,9 +123,18 @@ namespace plumbline::geometry
           mesh.vertices.emplace_back(vertices_[k][0], vertices_[k][1], heights_[k]);
         for (const msh::Cell &cell : cells_)
         {
-          mesh.cells.push_back(cell.vertex);
+          const auto &v = cell.vertex;
           mesh.is_inside.push_back(is_omega.at(cell.group) ? 1 : 0);
+          if (cell.type == tetrahedron)
+            mesh.cells.push_back({v[0], v[1], v[2], v[3]});
+          else // gmsh counts around the lower and the upper face
+            mesh.hexahedra.push_back({v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]});
         }
+        if (!mesh.cells.empty() && !mesh.hexahedra.empty())
+          throw InputError(source_ + " has " + std::to_string(mesh.cells.size()) +
+                           " tetrahedra and " + std::to_string(mesh.hexahedra.size()) +
+                           " hexahedra; give cells of one kind (gmsh: Recombine all surfaces and "
+                           "volumes, or none)");
         return mesh;
       }
 
@@ -268,7 +280,7 @@ namespace plumbline::geometry
       {
         const msh::HighTriangle *const high = find_high(cell.type);
         const bool has_four = cell.type == quadrilateral || cell.type == tetrahedron;
-        for (long i = 0; i < (has_four ? 4 : 3); ++i)
+        for (long i = 0; i < (cell.type == hexahedron ? 8 : has_four ? 4 : 3); ++i)
           cell.vertex[i] = node_of_cell();
         for (unsigned int side = 0; high != nullptr && side < 3; ++side)
         {
@@ -310,9 +322,9 @@ namespace plumbline::geometry
       {
         if (group != 0 && msh::is_other_volume(type))
           words_.fail("has cells of gmsh's type " + std::to_string(type) + msh::volume_name(type) +
-                      "; only tetrahedra of first order are allowed: take Recombine out of the "
-                      "script, and set Mesh.ElementOrder = 1");
-        return type == tetrahedron && group != 0;
+                      "; only tetrahedra or hexahedra of first order are allowed: recombine all "
+                      "surfaces and volumes, or none, and set Mesh.ElementOrder = 1");
+        return (type == tetrahedron || type == hexahedron) && group != 0;
       }
 
       void elements_2()

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "geometry/hexahedron.h"
 #include "geometry/tetrahedral_check.h"
 
 #include <algorithm>
@@ -274,19 +275,29 @@ namespace plumbline::geometry
   {
     NodeCells<3> result;
     result.first_piece = {0};
+    const std::size_t n_each = mesh.hexahedra.empty() ? 1 : n_in_hexahedron;
     for (const char is_inside : {1, 0})
-      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      for (std::size_t cell = 0; cell < mesh.cells.size(); cell += n_each)
       {
         if ((mesh.is_inside[cell] != 0) != (is_inside != 0))
           continue;
-        const auto &v = mesh.cells[cell];
-        result.pieces.push_back(ConvexPolyhedron::tetrahedron(
-            {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]], mesh.vertices[v[3]]}));
-        const SolidMoments &moments = result.pieces.back().moments();
-        result.nodes.push_back(moments.centroid);
-        result.centroid.push_back(moments.centroid);
-        result.area.push_back(moments.volume);
-        result.source.push_back(cell);
+        double volume = 0;
+        dealii::Tensor<1, 3> sum;
+        for (std::size_t part = cell; part < cell + n_each; ++part)
+        {
+          const auto &v = mesh.cells[part];
+          result.pieces.push_back(
+              ConvexPolyhedron::tetrahedron({mesh.vertices[v[0]], mesh.vertices[v[1]],
+                                             mesh.vertices[v[2]], mesh.vertices[v[3]]}));
+          const SolidMoments &moments = result.pieces.back().moments();
+          volume += moments.volume;
+          sum += moments.volume * moments.centroid;
+        }
+        result.nodes.emplace_back(n_each == 1 ? result.pieces.back().moments().centroid
+                                              : Place(sum / volume));
+        result.centroid.push_back(result.nodes.back());
+        result.area.push_back(volume);
+        result.source.push_back(cell / n_each);
         result.first_piece.push_back(result.pieces.size());
         result.n_free += is_inside != 0 ? 1 : 0;
       }
@@ -295,6 +306,8 @@ namespace plumbline::geometry
 
   TetrahedralMesh refine(const TetrahedralMesh &mesh)
   {
+    if (!mesh.hexahedra.empty())
+      return refine_hexahedra(mesh);
     TetrahedralMesh fine{mesh.vertices, {}, {}};
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
     const auto middle = [&](unsigned int a, unsigned int b)

@@ -40,15 +40,17 @@ namespace plumbline::geometry
   /// @throws InputError  h <= 0, no such cube
   CubeLattice cubes_within(const TetrahedralMesh &mesh, double h);
 
-  /// A node at the centroid of each cell, whose cell it is; those in Ω first.
+  /// A node at the centroid of each cell (each hexahedron, if there are such), whose cell it is;
+  /// those in Ω first.
   NodeCells<3> centroid_nodes(const TetrahedralMesh &mesh);
 
   /// Every cell cut into eight by the midpoints of its edges: four at its corners, and the
   /// octahedron between them along its shortest diagonal (Bey 1995, doi:10.1007/BF02238487). Cell c
-  /// becomes cells 8 c ... 8 c + 7, and the vertices keep their numbers.
+  /// becomes cells 8 c ... 8 c + 7, and the vertices keep their numbers. Of hexahedra:
+  /// refine_hexahedra.
   TetrahedralMesh refine(const TetrahedralMesh &mesh);
 
-  /// The same mesh with its vertices and cells renumbered so that the n thinnest cells of Ω come
-  /// first, by volume over longest edge cubed, and their vertices, too.
+  /// The same tetrahedra, without hexahedra, with vertices and cells renumbered so that the n
+  /// thinnest cells of Ω come first, by volume over longest edge cubed, and their vertices, too.
   TetrahedralMesh with_thinnest_first(TetrahedralMesh mesh, std::size_t n);
 } // namespace plumbline::geometry

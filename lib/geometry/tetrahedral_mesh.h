@@ -7,13 +7,22 @@
 
 namespace plumbline::geometry
 {
-  /// A conforming mesh of tetrahedra that fills Ω and its collar.
+  /// Corners in the order of the unit cube's: number i + 2 j + 4 k is at (i, j, k).
+  using Hexahedra = std::vector<std::array<unsigned int, 8>>;
+
+  /// A conforming mesh of tetrahedra that fills Ω and its collar. A mesh of hexahedra is also one
+  /// of tetrahedra, six in each.
   struct TetrahedralMesh
   {
     std::vector<dealii::Point<3>> vertices;         ///< [length]
     std::vector<std::array<unsigned int, 4>> cells; ///< of positive volume in this order
     std::vector<char> is_inside;                    ///< the cell is in Ω, else in the collar
+    /// Cells n_in_hexahedron k ... n_in_hexahedron k + 5 fill hexahedron k; empty: there are none.
+    Hexahedra hexahedra = {};
   };
+
+  /// Tetrahedra in a hexahedron.
+  inline constexpr std::size_t n_in_hexahedron = 6;
 
   /// Six times the volume of a tetrahedron, > 0 in the order of TetrahedralMesh. [length^3]
   double determinant(const TetrahedralMesh &mesh, std::size_t cell);

@@ -54,9 +54,13 @@ namespace plumbline::method
     /// What a scene in space may need of it.
     virtual Capabilities can_in_space() const { return can(); }
 
-    /// Empty if the method can do problems in space with this kernel, else the reason that is none
-    /// of its capabilities.
-    virtual std::string why_not_in_space(const physics::Kernel<3> &) const { return {}; }
+    /// Empty if the method can do problems in space with this kernel, on the cells of a mesh or
+    /// not, else the reason that is none of its capabilities.
+    virtual std::string why_not_in_space(const physics::Kernel<3> &, bool is_on_mesh) const
+    {
+      (void)is_on_mesh;
+      return {};
+    }
 
     /// Empty if the method can do the problem, of any case and level, else the reason that is none
     /// of its capabilities.

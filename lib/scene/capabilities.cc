@@ -40,7 +40,7 @@ namespace plumbline::scene
       case C::meshes:
         return {mesh, "write Domain/mesh = lattice"};
       case C::quadrilaterals:
-        return {cells + "quadrilaterals", ""};
+        return {cells + (scene.domain.is_in_space() ? "hexahedra" : "quadrilaterals"), ""};
       case C::triangles:
         return {cells + (scene.domain.is_in_space() ? "tetrahedra" : "triangles"), ""};
       case C::mixed_cells:

@@ -22,7 +22,7 @@ namespace plumbline::scene
       const DomainSection &domain = scene.domain;
       needs(domain.mesh.is_lattice() || domain.mesh.is_file(), "Domain/mesh = " + domain.mesh.name,
             "write lattice, or a file .msh or .geo whose physical volumes are meshed with "
-            "tetrahedra");
+            "tetrahedra or hexahedra");
       require(domain.mesh.is_file() ||
                   (!domain.solid.include.empty() && domain.boxes.exclude.empty()),
               "Domain/dimension = 3 needs three coordinates per corner in Domain/boxes and "
@@ -46,7 +46,7 @@ namespace plumbline::scene
       needs(nodes.kind() == NodeKind::centres ||
                 nodes.kind() == (is_on_mesh ? NodeKind::mesh : NodeKind::file),
             "Methods/nodes = " + nodes.name + (is_on_mesh ? on_mesh : ""),
-            is_on_mesh ? "write mesh: the centroids of the tetrahedra"
+            is_on_mesh ? "write mesh: the centroids of the cells"
                        : "write centres, or a file .csv");
       needs(!is_on_mesh || nodes.perturbation == 0, "Methods/perturbation" + on_mesh, "write 0");
       needs(!is_on_mesh || !scene.time.is_dynamic(), "a transient analysis" + on_mesh,

@@ -75,6 +75,8 @@ namespace plumbline::study
         }
         errors.push_back(error_of_change(change, contraction));
       }
+      for (double &error : errors)
+        error += solution.diagnostics.outer_change * size;
       raise_to_mean(errors, solver_error(problem.settings.solver.tolerance, size));
       return errors;
     }
@@ -119,6 +121,7 @@ namespace plumbline::study
     const double q = contraction(estimate.coarse_change, estimate.h_change,
                                  std::pow(.5, method.order())),
                  size = averages_l2(problem, ranks, solution.averages);
+    estimate.outer_change = solution.diagnostics.outer_change * size;
     conclude_from_changes(estimate, q, size, problem.settings.solver.tolerance);
     estimate.at_points = estimate_at(points, problem, solution, fine, q);
     return estimate;

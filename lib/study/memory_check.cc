@@ -78,18 +78,19 @@ namespace plumbline::study
       return size;
     }
 
-    /// Of tetrahedra, as six of each cube of the same volume.
+    /// Of tetrahedra, as six of each cube of the same volume, or of hexahedra.
     method::ProblemSize mesh_size_in_space(const scene::Scene &scene, const problem::Level &level)
     {
-      constexpr double n_in_cube = 6;
       const auto mesh = make_mesh_in_space(scene, level);
+      const double n_tetrahedra = mesh->hexahedra.empty() ? 1 : geometry::n_in_hexahedron, // a cell
+          n_in_cube = geometry::n_in_hexahedron / n_tetrahedra;
       method::ProblemSize size = size_of(scene, level);
       double volume = 0;
       for (std::size_t cell = 0; cell < mesh->cells.size(); ++cell)
-        volume += geometry::determinant(*mesh, cell) / n_in_cube;
-      size.n_cells = static_cast<double>(mesh->cells.size());
+        volume += geometry::determinant(*mesh, cell) / 6;
+      size.n_cells = static_cast<double>(mesh->cells.size()) / n_tetrahedra;
       for (const char is_inside : mesh->is_inside)
-        size.n_free += is_inside != 0 ? 1 : 0;
+        size.n_free += is_inside != 0 ? 1 / n_tetrahedra : 0;
       size.level.h = std::cbrt(n_in_cube * volume / size.n_cells);
       size.depth = std::cbrt(size.n_free / n_in_cube);
       size.extents = {size.depth, size.depth};
@@ -97,7 +98,7 @@ namespace plumbline::study
       return size;
     }
 
-    /// The same of nodes at the centroids of the tetrahedra.
+    /// The same of nodes at the centroids of the cells.
     method::ProblemSize of_centroids(method::ProblemSize size)
     {
       const double finer = std::cbrt(size.n_free) / size.depth;

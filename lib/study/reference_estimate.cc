@@ -62,8 +62,8 @@ namespace plumbline::study
                              double tolerance)
   {
     estimate.rate = -std::log2(contraction);
-    estimate.estimate =
-        error_of_change(estimate.h_change, contraction) + solver_error(tolerance, size);
+    estimate.estimate = error_of_change(estimate.h_change, contraction) + estimate.outer_change +
+                        solver_error(tolerance, size);
     estimate.p_change = estimate.field_p_change = not_fitted;
     estimate.field_h_change = estimate.field_coarse_change = not_fitted;
     estimate.field_rate = estimate.field_estimate = not_fitted;

@@ -1,6 +1,7 @@
 #include "study/refusal.h"
 
 #include "scene/capabilities.h"
+#include "scene/mesh_in_space.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,7 +14,18 @@ namespace plumbline::study
 
     Capabilities capabilities_for(const Capabilities &needed, const Method &method)
     {
-      return needed.count(method::Capability::space) > 0 ? method.can_in_space() : method.can();
+      using method::Capability;
+      if (needed.count(Capability::space) == 0)
+        return method.can();
+      const Capabilities all = method.can_in_space();
+      if (needed.count(Capability::quadrilaterals) == 0)
+        return all;
+      Capabilities on_hexahedra; // those that are of lattices in space are not
+      for (const Capability one : {Capability::meshes, Capability::quadrilaterals,
+                                   Capability::nonlocal, Capability::space})
+        if (all.count(one) > 0)
+          on_hexahedra.insert(one);
+      return on_hexahedra;
     }
 
     bool can_do(const Method &method, const Capabilities &needed)
@@ -53,6 +65,18 @@ namespace plumbline::study
 
   namespace
   {
+    /// Of a mesh in space: hexahedra, or for methods that have none tetrahedra, which may be those
+    /// in hexahedra.
+    method::Capability cells_for(const Method &method, const scene::Scene &scene)
+    {
+      const Capabilities can = method.can_in_space();
+      const bool is_on_hexahedra =
+          can.count(method::Capability::triangles) == 0 &&
+          can.count(method::Capability::space) > 0 &&
+          !make_mesh_in_space(scene, scene.study.series.front().levels.front())->hexahedra.empty();
+      return is_on_hexahedra ? method::Capability::quadrilaterals : method::Capability::triangles;
+    }
+
     std::string refusal(const Method &method, const scene::Scene &scene, const Capabilities &needed,
                         const Methods &available)
     {
@@ -85,19 +109,21 @@ namespace plumbline::study
     const scene::MeshSource &mesh = scene.domain.mesh;
     if (mesh.is_file())
     {
-      needed.insert(method::Capability::triangles);
       if (method.family() == method::MethodFamily::meshfree &&
           scene.methods.nodes.kind() == scene::NodeKind::centres)
         return "its nodes are lattice centres, which Domain/mesh = " + mesh.name +
                " does not have in three dimensions; write Methods/nodes = mesh (the centroids of "
-               "the tetrahedra), or take P1, DGP0 or DGP1";
+               "the cells), or take P1, DGP0 or DGP1";
+      needed.insert(cells_for(method, scene));
     }
     if (method.can().count(method::Capability::space) == 0)
       return "it is implemented in two dimensions only, and Domain/dimension = 3; take " +
              others(method, needed, available);
     const std::string why = refusal(method, scene, needed, available);
-    return why.empty() ? method.why_not_in_space(scene::make_kernel_in_space(
-                             scene, scene.study.series.front().levels.front().horizon))
+    return why.empty() ? method.why_not_in_space(
+                             scene::make_kernel_in_space(
+                                 scene, scene.study.series.front().levels.front().horizon),
+                             mesh.is_file())
                        : why;
   }
 

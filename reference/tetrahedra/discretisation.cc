@@ -9,10 +9,12 @@
 #include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/field.h"
+#include "reference/tetrahedra/hexahedra.h"
 #include "reference/tetrahedra/repeated_rows.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace plumbline::reference
@@ -28,15 +30,16 @@ namespace plumbline::reference
       GalerkinOnTetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
           : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra && !problem.mesh)
       {
-        const auto mesh = std::make_shared<const TetrahedralMesh>(make_mesh(problem));
+        const auto mesh = std::make_shared<const TetrahedralMesh>(make_mesh(problem, shapes));
         space_ = std::make_shared<const TetrahedralSpace>(mesh, shapes);
         if (space_->n_free() == 0)
           throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
-        method::PartitionedRows rows = method::part(make_rows(problem), n_unknowns());
-        free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
-        constrained_ = std::move(rows.constrained);
         options_.solver = problem.settings.solver.linear_solver;
         options_.iteration = problem.settings.solver.iteration;
+        if (shapes.is_trilinear())
+          settle_quadrature(problem);
+        else
+          set_rows(make_rows(problem));
         diagnostics_.n_neighbours = static_cast<unsigned int>(
             (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
         if (shapes.degree > 0 && is_of_cubes_)
@@ -84,13 +87,70 @@ namespace plumbline::reference
       method::Diagnostics diagnostics() const override { return diagnostics_; }
 
     private:
+      void set_rows(const algebra::CsrMatrix &all)
+      {
+        method::PartitionedRows rows = method::part(all, n_unknowns());
+        free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
+        constrained_ = std::move(rows.constrained);
+      }
+
+      /// Rows on hexahedra by quadrature, which is refined until the solution settles.
+      void settle_quadrature(const problem::Problem<3> &problem)
+      {
+        const auto &[is_exact, tolerance, most] = problem.settings.quadrature;
+        const auto solve = [&](unsigned int refinement)
+        {
+          set_rows(assemble_on_hexahedra(*space_, problem.kernel, n_unknowns(),
+                                         HexahedralRule(refinement)));
+          Vector u(static_cast<unsigned int>(n_unknowns()));
+          if (tolerance > 0)
+            tangent()->solve(
+                u, data(problem).load,
+                {problem.settings.solver.tolerance, problem.settings.solver.max_iterations});
+          return u;
+        };
+        Vector u = solve(0);
+        double change = std::numeric_limits<double>::infinity();
+        unsigned int refinement = 0;
+        while (tolerance > 0 && change > tolerance)
+        {
+          if (refinement == most)
+            throw NumericalError(
+                "quadrature over pairs of hexahedra, refinement " + std::to_string(refinement) +
+                ", changes the solution by " + base::to_text(change, 2) +
+                " relative to it, more than Quadrature/tolerance = " + base::to_text(tolerance, 2) +
+                "; raise Quadrature/max refinements or the tolerance, or refine the mesh");
+          Vector finer = solve(++refinement);
+          u -= finer;
+          change = u.l2_norm() / std::max(finer.l2_norm(), std::numeric_limits<double>::min());
+          u.swap(finer);
+        }
+        diagnostics_.n_refinements = refinement;
+        diagnostics_.is_outer_error_known = tolerance > 0;
+        diagnostics_.outer_change = tolerance > 0 ? change : 0;
+        const HexahedralRule rule(refinement);
+        const auto points = [](unsigned int n)
+        { return std::to_string(n) + " x " + std::to_string(n) + " x " + std::to_string(n); };
+        diagnostics_.notes.push_back(
+            "entries by Gauss rules over pairs of hexahedra, of " + points(rule.n_cut) +
+            " points where they touch or the horizon cuts them and of " + points(rule.n_smooth) +
+            " elsewhere; " +
+            (tolerance > 0 ? "the last refinement changes the solution by " +
+                                 base::to_text(change, 1) + " relative to it"
+                           : "their error is not known (Quadrature/tolerance = 0)") +
+            " (no error for linear fields, nor in the local limit)");
+      }
+
       /// Of a mesh whose shapes differ the rows that are sampled are those about the thinnest
       /// cells.
-      TetrahedralMesh make_mesh(const problem::Problem<3> &problem) const
+      TetrahedralMesh make_mesh(const problem::Problem<3> &problem,
+                                const TetrahedralShapes &shapes) const
       {
         if (is_of_cubes_)
           return geometry::six_per_cube(lattice_,
                                         geometry::layers_within(problem.horizon(), problem.h()));
+        if (problem.mesh && shapes.is_on_hexahedra)
+          return *problem.mesh;
         constexpr std::size_t n_first = 4; // cells, which have at least as many vertices
         return geometry::with_thinnest_first(
             problem.mesh ? *problem.mesh : problem.make_tetrahedra(), n_first);
@@ -249,13 +309,15 @@ namespace plumbline::reference
   {
     // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
     // what all faces keep, and rows of faces that are assembled at a time; all measured
-    const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
+    const bool has_jumps = !shapes.is_continuous && shapes.degree > 0 && !shapes.is_on_hexahedra;
     const double of_lattice_entry = has_jumps ? 30 : 20,
                  of_entry = size.is_scattered ? 50 : of_lattice_entry,
-                 of_cell = size.is_scattered ? 1000 : 100,
+                 of_cell = size.is_scattered && !shapes.is_trilinear() ? 1000 : 100,
                  of_pair = has_jumps ? 350 : 220; // of a lattice, known once
     const double reach = size.reach() / size.level.h,
-                 n_types = shapes.is_continuous ? 1 : 6 * shapes.n_per_cell(),
+                 n_types = shapes.is_continuous     ? 1
+                           : shapes.is_on_hexahedra ? shapes.n_per_cell()
+                                                    : 6 * shapes.n_per_cell(),
                  wider = shapes.is_continuous ? 2 : 1.2,
                  n_cubes = size.extents[0] * size.extents[1] * size.depth,
                  n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *

@@ -75,12 +75,14 @@ namespace plumbline::reference
     return result;
   }
 
-  double FacePotential::sum(const double *squares, const double *weights, unsigned int n) const
+  void FacePotential::values(const double *squares, double *result, unsigned int n) const
   {
     std::array<double, most_points> r, value; // filled up to n
     for (unsigned int q = 0; q < n; ++q)
+    {
       r[q] = std::sqrt(squares[q]);
-    double sum = 0;
+      result[q] = 0;
+    }
     for (const Part &part : parts_)
     {
       for (unsigned int q = 0; q < n; ++q)
@@ -89,8 +91,17 @@ namespace plumbline::reference
         for (unsigned int q = 0; q < n; ++q)
           value[q] = value[q] * r[q] + part.powers[k];
       for (unsigned int q = 0; q < n; ++q)
-        sum += r[q] < part.end ? weights[q] * (value[q] + part.inverse / r[q]) : 0;
+        result[q] += r[q] < part.end ? value[q] + part.inverse / r[q] : 0;
     }
+  }
+
+  double FacePotential::sum(const double *squares, const double *weights, unsigned int n) const
+  {
+    std::array<double, most_points> value; // filled up to n
+    values(squares, value.data(), n);
+    double sum = 0;
+    for (unsigned int q = 0; q < n; ++q)
+      sum += weights[q] * value[q];
     return sum;
   }
 
@@ -125,18 +136,18 @@ namespace plumbline::reference
 
   std::string FacePotential::refuse(const physics::Kernel<3> &kernel)
   {
-    const std::string remedy = "; take Q1 or DGQ0, or Kernel/type = constant, linear-decay, 1/r, "
-                               "polynomial or table";
+    const std::string remedy = "; write Kernel/type = constant, linear-decay, 1/r, polynomial or "
+                               "table, or take Q1 or DGQ0 on a lattice of cubes";
     if (kernel.structure() != physics::Structure::scalar)
-      return "entries on tetrahedra are for scalar kernels, not for bond tensors" + remedy;
+      return "entries on tetrahedra and hexahedra are for scalar kernels, not for bond tensors" + remedy;
     if (kernel.profile().is_function())
-      return "entries on tetrahedra are for kernels that are sums of powers" + remedy;
+      return "entries on tetrahedra and hexahedra are for kernels that are sums of powers" + remedy;
     if (kernel.profile().lowest_exponent() < lowest_exponent)
-      return "entries on tetrahedra are for kernels like 1/r or less at 0" + remedy;
+      return "entries on tetrahedra and hexahedra are for kernels like 1/r or less at 0" + remedy;
     for (const PotentialTerms &part : terms(kernel))
       for (const auto &[coefficient, exponent] : part.terms)
         if (exponent > highest_exponent)
-          return "exact entries on tetrahedra support powers up to r^" +
+          return "entries on tetrahedra and hexahedra support powers up to r^" +
                  std::to_string(highest_exponent) + ", not r^" + std::to_string(exponent) +
                  "; give fewer coefficients";
     return "";

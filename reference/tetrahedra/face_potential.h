@@ -39,8 +39,12 @@ namespace plumbline::reference
     /// @pre  refuse() is empty
     static std::vector<PotentialTerms> terms(const physics::Kernel<3> &kernel);
 
-    /// At most as many points as one call of sum() or sum_of_rays() takes.
+    /// At most as many points as one call of values(), sum() or sum_of_rays() takes.
     static constexpr unsigned int most_points = 64;
+
+    /// f(r) at n points. [1]
+    /// @param squares  r² > 0
+    void values(const double *squares, double *result, unsigned int n) const;
 
     /// Σ weights f(r) at n points. [1]
     /// @param squares  r² > 0

@@ -24,12 +24,14 @@ namespace plumbline::reference
     dealii::Tensor<1, 3> gradient(const dealii::Point<3> &x) const;
 
     /// Over the cells of a lattice, which those of the mesh fill, and perhaps more space. Exact to
-    /// round-off.
+    /// round-off; of trilinear functions by a rule of degree 5 on each common part of a cube and a
+    /// tetrahedron, which is exact in parallelepipeds.
     std::vector<double> averages(const geometry::CubeLattice &lattice) const;
 
   private:
-    /// A cell of Ω that contains x, and the values of its corners' linear functions there.
-    std::pair<std::size_t, std::array<double, 4>> place(const dealii::Point<3> &x) const;
+    /// A tetrahedron of Ω that contains x.
+    std::size_t place(const dealii::Point<3> &x) const;
+    double value_in(std::size_t cell, const dealii::Point<3> &x) const;
     void make_search() const;
 
     std::shared_ptr<const TetrahedralSpace> space_;
@@ -39,9 +41,11 @@ namespace plumbline::reference
     mutable std::unique_ptr<const geometry::BoxSearch<3>> search_;
   };
 
-  /// ∫ b φ_i of the free unknowns over Ω, by a rule of degree 5 on each cell.
+  /// ∫ b φ_i of the free unknowns over Ω, by a rule of degree 5 on each cell (along each axis of a
+  /// hexahedron).
   std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space);
 
-  /// A quarter of the cells around each free vertex, or the free cells. [length^3]
+  /// A quarter of the tetrahedra around each free vertex, an eighth of the hexahedra, or the free
+  /// cells. [length^3]
   std::vector<double> volumes(const TetrahedralSpace &space);
 } // namespace plumbline::reference

@@ -20,14 +20,20 @@ namespace plumbline::reference
     }
   } // namespace
 
+  using dealii::Point;
+
   TetrahedralSpace::TetrahedralSpace(std::shared_ptr<const TetrahedralMesh> mesh,
                                      TetrahedralShapes shapes)
       : mesh_(std::move(mesh)), shapes_(shapes),
-        n_each_(shapes.is_continuous ? 1 : shapes.n_per_cell())
+        n_each_(shapes.is_continuous ? 1 : shapes.n_per_cell()),
+        n_tetrahedra_(shapes.is_on_hexahedra ? geometry::n_in_hexahedron : 1)
   {
-    std::vector<char> is_free = mesh_->is_inside;
+    std::vector<char> is_free;
     if (shapes_.is_continuous)
       is_free = geometry::inner_vertices(*mesh_);
+    else
+      for (std::size_t cell = 0; cell < mesh_->cells.size(); cell += n_tetrahedra_)
+        is_free.push_back(mesh_->is_inside[cell]);
     number_.resize(is_free.size());
     support_.resize(n_each_ * is_free.size());
     n_free_ = static_cast<std::size_t>(std::count(is_free.begin(), is_free.end(), 1));
@@ -36,13 +42,17 @@ namespace plumbline::reference
     {
       number_[k] = is_free[k] != 0 ? free++ : other++;
       if (shapes_.is_continuous)
+      {
         support_[number_[k]] = mesh_->vertices[k];
-      else if (n_each_ == 1)
-        for (const unsigned int vertex : mesh_->cells[k])
-          support_[number_[k]] += mesh_->vertices[vertex] / 4;
-      else
-        for (unsigned int corner = 0; corner < n_each_; ++corner)
-          support_[dof(k, corner)] = mesh_->vertices[mesh_->cells[k][corner]];
+        continue;
+      }
+      for (unsigned int corner = 0; corner < shapes_.n_corners(); ++corner)
+      {
+        const Point<3> &x = mesh_->vertices[shapes_.is_on_hexahedra ? mesh_->hexahedra[k][corner]
+                                                                    : mesh_->cells[k][corner]];
+        Point<3> &support = support_[n_each_ * number_[k] + corner % n_each_];
+        support = n_each_ > 1 ? x : support + x / static_cast<double>(shapes_.n_corners());
+      }
     }
     n_free_ *= n_each_;
   }
@@ -65,6 +75,12 @@ namespace plumbline::reference
         for (unsigned int corner = 0; corner < 4; ++corner)
           add_jump(face, space.dof(side.cell, corner), -slopes[corner] * outward);
     }
+    // faces within a hexahedron, across which constants do not jump
+    if (space.shapes().is_on_hexahedra)
+      faces.erase(std::remove_if(faces.begin(), faces.end(),
+                                 [](const SpaceFace &face)
+                                 { return face.jumps.size() == 1 && face.jumps[0].value == 0; }),
+                  faces.end());
     return faces;
   }
 

@@ -25,14 +25,26 @@ namespace plumbline::reference
       return shapes;
     }
 
-    unsigned int n_per_cell() const { return degree == 0 ? 1 : 4; }
+    /// Trilinear functions instead of linear ones, or constants, on hexahedra.
+    TetrahedralShapes on_hexahedra() const
+    {
+      TetrahedralShapes shapes = *this;
+      shapes.is_on_hexahedra = true;
+      return shapes;
+    }
+
+    unsigned int n_corners() const { return is_on_hexahedra ? 8 : 4; }
+    unsigned int n_per_cell() const { return degree == 0 ? 1 : n_corners(); }
+    bool is_trilinear() const { return is_on_hexahedra && degree > 0; }
 
     bool is_continuous = true;
     unsigned int degree = 1;
+    bool is_on_hexahedra = false;
   };
 
-  /// Linear functions, continuous or not, or constants on the cells of a mesh. Free unknowns come
-  /// first: vertices with all their cells in Ω, or those of the cells in Ω, of one cell together.
+  /// Linear functions, continuous or not, or constants on the cells of a mesh; trilinear ones or
+  /// constants on its hexahedra. Free unknowns come first: vertices with all their cells in Ω, or
+  /// those of the cells in Ω, of one cell together.
   class TetrahedralSpace
   {
   public:
@@ -48,11 +60,20 @@ namespace plumbline::reference
     /// The vertex, or the centroid of a cell with constants. [length]
     const dealii::Point<3> &support(std::size_t dof) const { return support_[dof]; }
 
-    /// The unknown of corner 0 ... 3 of a cell, in a space of constants the same for all corners.
+    /// The unknown of corner 0 ... 3 of a tetrahedron, in a space of constants the same for all
+    /// corners, and for all tetrahedra of a hexahedron.
+    /// @pre  continuous or constant functions on hexahedra
     unsigned int dof(std::size_t cell, unsigned int corner) const
     {
       return shapes_.is_continuous ? number_[mesh_->cells[cell][corner]]
-                                   : n_each_ * number_[cell] + corner % n_each_;
+                                   : n_each_ * number_[cell / n_tetrahedra_] + corner % n_each_;
+    }
+
+    /// The unknown of corner 0 ... 7 of a hexahedron.
+    unsigned int corner_dof(std::size_t hexahedron, unsigned int corner) const
+    {
+      return shapes_.is_continuous ? number_[mesh_->hexahedra[hexahedron][corner]]
+                                   : n_each_ * number_[hexahedron] + corner % n_each_;
     }
 
     /// The same of a vertex of the mesh, or of a cell, or of corner number % 4 of cell number / 4.
@@ -64,7 +85,8 @@ namespace plumbline::reference
   private:
     std::shared_ptr<const TetrahedralMesh> mesh_;
     TetrahedralShapes shapes_;
-    unsigned int n_each_; ///< unknowns of a vertex or a cell
+    unsigned int n_each_;      ///< unknowns of a vertex or a cell
+    std::size_t n_tetrahedra_; ///< of a cell
     std::size_t n_free_ = 0;
     std::vector<unsigned int> number_; ///< number of each vertex or cell, free ones first
     std::vector<dealii::Point<3>> support_;

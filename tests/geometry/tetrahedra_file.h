@@ -1,4 +1,4 @@
-// Tetrahedra as texts of gmsh files.
+// Tetrahedra and hexahedra as texts of gmsh files.
 #pragma once
 
 #include "geometry/tetrahedral_mesh.h"
@@ -29,20 +29,31 @@ namespace plumbline::tests
            msh_section("Nodes", counted(nodes)) + msh_section("Elements", counted(elements));
   }
 
+  /// Around the lower face, then the upper one.
+  inline std::array<unsigned int, 8> in_order_of_gmsh(const std::array<unsigned int, 8> &v)
+  {
+    return {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
+  }
+
   inline std::string msh_22(const geometry::TetrahedralMesh &mesh)
   {
     std::ostringstream nodes, elements;
     nodes.precision(17);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       nodes << v + 1 << ' ' << mesh.vertices[v] << '\n';
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    const auto add = [&](std::size_t number, int type, bool is_inside, const auto &vertices)
     {
-      const int group = mesh.is_inside[c] != 0 ? 1 : 2;
-      elements << c + 1 << " 4 2 " << group << ' ' << group;
-      for (const unsigned int vertex : mesh.cells[c])
+      const int group = is_inside ? 1 : 2;
+      elements << number + 1 << ' ' << type << " 2 " << group << ' ' << group;
+      for (const unsigned int vertex : vertices)
         elements << ' ' << vertex + 1;
       elements << '\n';
-    }
+    };
+    for (std::size_t c = 0; c < mesh.cells.size() && mesh.hexahedra.empty(); ++c)
+      add(c, 4, mesh.is_inside[c] != 0, mesh.cells[c]);
+    for (std::size_t c = 0; c < mesh.hexahedra.size(); ++c)
+      add(c, 5, mesh.is_inside[geometry::n_in_hexahedron * c] != 0,
+          in_order_of_gmsh(mesh.hexahedra[c]));
     return msh_22(volume_names, nodes.str(), elements.str());
   }
 

@@ -120,9 +120,9 @@ TEST_F(TetrahedraFile, that_cannot_be_used_are_refused)
   { return tests::msh_22(tests::volume_names, nodes + more_nodes, elements); };
   EXPECT_EQ(fault_of("body.msh", msh("", upper + lower)), "");
   expect_fault(msh("6 1 1 0\n7 1 0 1\n8 0 1 1\n9 1 1 1\n", "1 5 2 1 1 1 2 6 3 4 7 9 8\n" + lower),
-               "line 23: has cells of gmsh's type 5 (hexahedra); only tetrahedra of first order");
+               "has 1 tetrahedra and 1 hexahedra; give cells of one kind (gmsh: Recombine all");
   expect_fault(msh("6 .5 0 0\n", "1 11 2 1 1 1 2 3 4 6 6 6 6 6 6\n" + lower),
-               "type 11 (tetrahedra of higher order); only tetrahedra");
+               "type 11 (tetrahedra of higher order); only tetrahedra or hexahedra");
   expect_fault(msh("6 1 1 0\n", "1 4 2 1 1 1 2 3 6\n" + lower),
                "cell 0 at (0.5, 0.5, 0) is degenerate, its volume is zero; take it out");
   expect_fault(

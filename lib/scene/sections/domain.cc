@@ -39,7 +39,7 @@ namespace plumbline::scene
         "dimension; transient analyses of Material/model = double well with Domain/boundary = "
         "periodic on the first axis of the box). 3: space; expressions depend on x, y and z "
         "(static, transient and dispersion analyses and quasi-static fracture of linear models "
-        "with Domain/mesh = lattice; static analyses on tetrahedra of a gmsh file).");
+        "with Domain/mesh = lattice; static analyses on tetrahedra or hexahedra of a gmsh file).");
     keys.add(
         "boxes", "0, 0 : 1, 1", any_boxes(),
         [this](const std::string &text)
@@ -67,7 +67,8 @@ namespace plumbline::scene
              "triangles: the same boxes as a mesh with its own matrix entries. A file .msh, or "
              ".geo, whose physical surfaces are named omega... (the "
              "domain) and collar... (the interaction domain); with Domain/dimension = 3 physical "
-             "volumes, meshed with tetrahedra. In a .geo the line 'DefineConstant[ h = 0.1, delta "
+             "volumes, meshed with tetrahedra or hexahedra. In a .geo the line 'DefineConstant[ h "
+             "= 0.1, delta "
              "= 0.3 ];' "
              "lets each level set its own h and horizon. Or the name of a deal.II generator, "
              "e.g. hyper_ball_balanced. gmsh meshes .geo files in a separate process with limits "

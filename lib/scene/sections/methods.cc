@@ -36,7 +36,7 @@ namespace plumbline::scene
         "x and y, in three dimensions x, y and z; {h} in its name selects one file for each "
         "level (pd_{h}.csv: pd_0.05.csv at h = 0.05). On meshes, and on scattered nodes in "
         "three dimensions, the node cells are Voronoi cells; with mesh in three dimensions they "
-        "are the tetrahedra.");
+        "are the tetrahedra or hexahedra.");
     keys.add(
         "perturbation", nodes.perturbation, between(0, .49),
         "Random displacement of centres by up to this multiple of h along each axis "
