@@ -83,17 +83,20 @@ def lengths(values):
     return h, m * h
 
 
+EDGES = {4: [(a, b) for a in range(4) for b in range(a)],
+         8: [(k + j, (k + 1) % 4 + j) for k in range(4) for j in (0, 4)] + [(k, k + 4) for k in range(4)]}
+
+
 def section_at_zero(cells):
-    """What the plane z = 0 cuts out of tetrahedra: triangles and quadrilaterals."""
+    """What the plane z = 0 cuts out of tetrahedra and hexahedra: polygons."""
     parts = []
     for name, corners in cells:
         heights = [point[2] + 1e-9 for point in corners]  # no corner lies in the plane
         cut = []
-        for a in range(4):
-            for b in range(a):
-                if heights[a] * heights[b] < 0:
-                    s = heights[a] / (heights[a] - heights[b])
-                    cut.append([(1 - s) * corners[a][i] + s * corners[b][i] for i in (0, 1)])
+        for a, b in EDGES[len(corners)]:
+            if heights[a] * heights[b] < 0:
+                s = heights[a] / (heights[a] - heights[b])
+                cut.append([(1 - s) * corners[a][i] + s * corners[b][i] for i in (0, 1)])
         if cut:
             middle = [sum(p[i] for p in cut) / len(cut) for i in (0, 1)]
             parts.append((name, sorted(cut, key=lambda p: math.atan2(p[1] - middle[1], p[0] - middle[0]))))
@@ -114,7 +117,7 @@ def physical_cells(file, h, horizon, dimension):
             names[words[1]] = words[2].strip('"')
         elif section == "$Nodes" and len(words) == 4:
             points[words[0]] = tuple(float(x) for x in words[1:dimension + 1])
-        elif section == "$Elements" and len(words) > 5 and words[1] in (("2", "3") if dimension == 2 else ("4",)):
+        elif section == "$Elements" and len(words) > 5 and words[1] in (("2", "3") if dimension == 2 else ("4", "5")):
             cells.append((names.get(words[3], "omega"), [points[w] for w in words[3 + int(words[2]):]]))
     return cells if dimension == 2 else section_at_zero(cells)
 
