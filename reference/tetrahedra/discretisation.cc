@@ -244,6 +244,7 @@ namespace plumbline::reference
                                        : "give a mesh without thin tetrahedra "
                                          "(Mesh.OptimizeThreshold of gmsh)"));
         note(use, change, has_jumps);
+        diagnostics_.notes.back() += FacePotential::note(problem.kernel);
         return matrix;
       }
 

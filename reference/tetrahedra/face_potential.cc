@@ -1,5 +1,7 @@
 #include "reference/tetrahedra/face_potential.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,61 +11,41 @@ namespace plumbline::reference
   namespace
   {
     constexpr int lowest_exponent = -1;
-    constexpr int highest_exponent = 50; // 64 coefficients of antiderivatives have room
+    constexpr int highest_exponent = 50; // 64 coefficients have room; higher ones make a series
 
-    /// ∫_0^end t^n γ dt, of γ = a t^k. @pre n + k > -1
-    double moment(const PotentialTerms::Term &term, int n, double end)
-    {
-      const int p = term.exponent + n + 1;
-      return term.coefficient * std::pow(end, p) / p;
-    }
+    constexpr double most_of_series = 1e-11; // its error; functions of scenes leave 1e-12 or less
 
-    void add_power(std::vector<double> &powers, int exponent, double coefficient)
+    bool is_series(const physics::RadialProfile &profile)
     {
-      const auto place = static_cast<std::size_t>(exponent);
-      if (powers.size() <= place)
-        powers.resize(place + 1);
-      powers[place] += coefficient;
+      if (profile.is_function())
+        return true;
+      return profile.breaks().empty() &&
+             std::any_of(profile.powers().begin(), profile.powers().end(),
+                         [](const physics::PowerTerm &term)
+                         { return term.coefficient != 0 && term.exponent > highest_exponent; });
     }
   } // namespace
 
   FacePotential::FacePotential(const physics::Kernel<3> &kernel, Kind kind)
   {
-    // ∫_r^end t γ (t - r)^n / n! dt is the same from 0, a sum of moments, and, n being odd, besides
-    // ∫_0^r t γ (r - t)^n / n! dt = a r^(k+n+2) / ((k+2) ... (k+n+2)) for γ = a t^k.
-    const int n = kind == Kind::harmonic ? 1 : 3;
     constexpr double share_of_second_moment = 2 * M_PI / 3;
-    for (const auto &[end, powers] : terms(kernel))
-    {
-      Part part;
-      part.end = end;
-      for (const PotentialTerms::Term &term : powers)
-      {
-        double binomial = 1; // 1 / (j! (n - j)!)
-        for (int j = 2; j <= n; ++j)
-          binomial /= j;
-        for (int j = 0; j <= n; ++j)
-        {
-          const double of_power = (j % 2 == 0 ? 1 : -1) * binomial * moment(term, n + 1 - j, end);
-          if (j == 0)
-            part.inverse += of_power;
-          else
-            add_power(part.powers, j - 1, of_power);
-          binomial *= static_cast<double>(n - j) / (j + 1);
-        }
-        double inner = term.coefficient;
-        for (int j = 2; j <= n + 2; ++j)
-          inner /= term.exponent + j;
-        add_power(part.powers, term.exponent + n + 1, inner);
-        diffusion_ += share_of_second_moment * moment(term, 4, end);
-      }
-      parts_.push_back(std::move(part));
-    }
+    diffusion_ = share_of_second_moment * kernel.profile().moment(4);
+    for (const PotentialTerms &part : terms(kernel))
+      parts_.emplace_back(part, kind == Kind::harmonic ? 1 : 3);
   }
 
   std::vector<PotentialTerms> FacePotential::terms(const physics::Kernel<3> &kernel)
   {
     std::vector<PotentialTerms> result;
+    if (const physics::RadialProfile &whole = kernel.profile(); is_series(whole))
+    {
+      PotentialTerms part;
+      part.series = ProfileSeries(whole).coefficients;
+      constexpr unsigned int n_levels = 8; // of RadialProfile
+      for (unsigned int level = 0; level < n_levels; ++level)
+        part.degrees.push_back(whole.degree(std::ldexp(1., -static_cast<int>(level))) + 1);
+      return {part};
+    }
     for (const auto &[end, profile] : kernel.profile().parts())
     {
       PotentialTerms part;
@@ -83,15 +65,11 @@ namespace plumbline::reference
       r[q] = std::sqrt(squares[q]);
       result[q] = 0;
     }
-    for (const Part &part : parts_)
+    for (const PotentialPart<double> &part : parts_)
     {
+      part.potential().evaluate(r.data(), value.data(), n);
       for (unsigned int q = 0; q < n; ++q)
-        value[q] = 0;
-      for (std::size_t k = part.powers.size(); k-- > 0;)
-        for (unsigned int q = 0; q < n; ++q)
-          value[q] = value[q] * r[q] + part.powers[k];
-      for (unsigned int q = 0; q < n; ++q)
-        result[q] += r[q] < part.end ? value[q] + part.inverse / r[q] : 0;
+        result[q] += r[q] < part.end() ? value[q] / r[q] : 0;
     }
   }
 
@@ -108,27 +86,18 @@ namespace plumbline::reference
   double FacePotential::sum_of_rays(const double *squares, const double *weights,
                                     unsigned int n) const
   {
-    // ∫ s³ (s r)^k ds up to s = min(1, end / r) is R^(k+4) / ((k+4) r⁴), R = min(r, end)
+    // up to s = min(1, end / r) this is r⁻⁴ ∫_0^R t³ f dt = R⁴ g₁(R) / r⁴, R = min(r, end)
     double sum = 0;
     std::array<double, most_points> reach, value; // filled up to n
-    for (const Part &part : parts_)
+    for (const PotentialPart<double> &part : parts_)
     {
       for (unsigned int q = 0; q < n; ++q)
-      {
-        reach[q] = std::min(std::sqrt(squares[q]), part.end);
-        value[q] = 0;
-      }
-      for (std::size_t k = part.powers.size(); k-- > 0;)
-      {
-        const double power = part.powers[k] / static_cast<double>(k + 4);
-        for (unsigned int q = 0; q < n; ++q)
-          value[q] = value[q] * reach[q] + power;
-      }
+        reach[q] = std::min(std::sqrt(squares[q]), part.end());
+      part.of_edges().evaluate(reach.data(), value.data(), n);
       for (unsigned int q = 0; q < n; ++q)
       {
         const double cube = reach[q] * reach[q] * reach[q];
-        sum += weights[q] * cube * (value[q] * reach[q] + part.inverse / 3) /
-               (squares[q] * squares[q]);
+        sum += weights[q] * cube * value[q] / (squares[q] * squares[q]);
       }
     }
     return sum;
@@ -136,28 +105,36 @@ namespace plumbline::reference
 
   std::string FacePotential::refuse(const physics::Kernel<3> &kernel)
   {
-    const std::string remedy = "; write Kernel/type = constant, linear-decay, 1/r, polynomial or "
-                               "table, or take Q1 or DGQ0 on a lattice of cubes";
+    const std::string remedy =
+        "; write Kernel/type = constant, linear-decay, 1/r, polynomial, "
+        "gaussian, exponential or table, or take Q1 or DGQ0 on a lattice of cubes";
     if (kernel.structure() != physics::Structure::scalar)
-      return "entries on tetrahedra and hexahedra are for scalar kernels, not for bond tensors" + remedy;
-    if (kernel.profile().is_function())
-      return "entries on tetrahedra and hexahedra are for kernels that are sums of powers" + remedy;
+      return "entries on tetrahedra and hexahedra are for scalar kernels, not for bond tensors" +
+             remedy;
     if (kernel.profile().lowest_exponent() < lowest_exponent)
       return "entries on tetrahedra and hexahedra are for kernels like 1/r or less at 0" + remedy;
-    for (const PotentialTerms &part : terms(kernel))
-      for (const auto &[coefficient, exponent] : part.terms)
-        if (exponent > highest_exponent)
-          return "entries on tetrahedra and hexahedra support powers up to r^" +
-                 std::to_string(highest_exponent) + ", not r^" + std::to_string(exponent) +
-                 "; give fewer coefficients";
+    if (is_series(kernel.profile()))
+      if (const double error = ProfileSeries(kernel.profile()).error; !(error < most_of_series))
+        return "the kernel's radial profile is no series of 128 terms to more than " +
+               base::to_text(error, 1) + " of the kernel's integral; give fewer coefficients";
     return "";
+  }
+
+  std::string FacePotential::note(const physics::Kernel<3> &kernel)
+  {
+    if (!is_series(kernel.profile()))
+      return {};
+    const ProfileSeries series(kernel.profile());
+    return "; a Chebyshev series of " + std::to_string(series.coefficients.size()) +
+           " terms stands for the radial profile, to " + base::to_text(series.error, 1) +
+           " of the kernel's integral";
   }
 
   std::vector<double> FacePotential::ends() const
   {
     std::vector<double> ends;
-    for (const Part &part : parts_)
-      ends.push_back(part.end);
+    for (const PotentialPart<double> &part : parts_)
+      ends.push_back(part.end());
     std::sort(ends.begin(), ends.end());
     return ends;
   }

@@ -35,7 +35,11 @@ namespace plumbline::reference
     /// Why there is no such function of a kernel, and the remedy; empty: there is.
     static std::string refuse(const physics::Kernel<3> &kernel);
 
-    /// The profile by its terms; several parts of a table, which add up. [horizons]
+    /// How a series stands for the kernel, for reports; empty: none does.
+    static std::string note(const physics::Kernel<3> &kernel);
+
+    /// The profile by its terms; several parts of a table, which add up; a ProfileSeries of what is
+    /// no sum of powers, or of high ones. [horizons]
     /// @pre  refuse() is empty
     static std::vector<PotentialTerms> terms(const physics::Kernel<3> &kernel);
 
@@ -59,14 +63,7 @@ namespace plumbline::reference
     double diffusion() const { return diffusion_; } ///< κ, in units of the horizon [1]
 
   private:
-    /// For r < end: inverse / r + Σ powers[k] r^k.
-    struct Part
-    {
-      double end = 1, inverse = 0;
-      std::vector<double> powers;
-    };
-
-    std::vector<Part> parts_;
+    std::vector<PotentialPart<double>> parts_;
     double diffusion_ = 0;
   };
 } // namespace plumbline::reference

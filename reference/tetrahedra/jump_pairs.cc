@@ -34,33 +34,6 @@ namespace plumbline::reference
       unsigned int n_shared = 0;
     };
 
-    /// Coefficients of r^j in ∫_r^end t γ (t - r)^n / n! dt, γ by its terms.
-    std::vector<double> powers_of(const PotentialTerms &kernel, int n)
-    {
-      std::vector<double> powers;
-      const auto add = [&powers](int place, double value)
-      {
-        if (powers.size() <= static_cast<std::size_t>(place))
-          powers.resize(static_cast<std::size_t>(place) + 1);
-        powers[static_cast<std::size_t>(place)] += value;
-      };
-      for (const auto &[coefficient, k] : kernel.terms)
-      {
-        // ∫_0^end of the binomial, less (-1)^n ∫_0^r t γ (r - t)^n / n! dt
-        for (int j = 0; j <= n; ++j)
-        {
-          const int p = k + 2 + n - j;
-          add(j, coefficient * (j % 2 == 0 ? 1 : -1) * std::pow(kernel.end, p) /
-                     (std::tgamma(j + 1) * std::tgamma(n - j + 1) * p));
-        }
-        double inner = coefficient;
-        for (int j = 2; j <= n + 2; ++j)
-          inner /= k + j;
-        add(k + n + 2, n % 2 == 0 ? -inner : inner);
-      }
-      return powers;
-    }
-
     /// Gauss rules on [0, 1] by their numbers of points.
     struct GaussRule
     {
@@ -91,7 +64,8 @@ namespace plumbline::reference
     {
       static constexpr unsigned int most = most_gauss_points;
 
-      LinePoints(double from, double to, double square)
+      /// @param extra  points that the functions take besides
+      LinePoints(double from, double to, double square, unsigned int extra)
       {
         // r is singular at τ = ± iη; far from there by τ, else by τ = η sinh s, of which it is
         // analytic where |Im s| < π/2: at most 195 points for |τ| < 1
@@ -100,7 +74,7 @@ namespace plumbline::reference
             (std::sqrt(from * from + square) + std::sqrt(to * to + square)) / (to - from);
         if (axis > least_axis)
         {
-          const GaussRule &rule = choose(axis + std::sqrt(axis * axis - 1));
+          const GaussRule &rule = choose(axis + std::sqrt(axis * axis - 1), extra);
           for (unsigned int q = 0; q < n; ++q)
           {
             tau[q] = from + (to - from) * rule.points[q];
@@ -111,7 +85,7 @@ namespace plumbline::reference
         {
           const double eta = std::max(std::sqrt(square), least_eta), first = std::asinh(from / eta),
                        size = std::asinh(to / eta) - first, width = M_PI / size;
-          const GaussRule &rule = choose(width + std::sqrt(1 + width * width));
+          const GaussRule &rule = choose(width + std::sqrt(1 + width * width), extra);
           for (unsigned int q = 0; q < n; ++q)
           {
             tau[q] = eta * std::sinh(first + size * rule.points[q]);
@@ -128,10 +102,10 @@ namespace plumbline::reference
     private:
       /// For 1e-8 of functions that are analytic in the ellipse about [-1, 1] whose semi-axes have
       /// this sum: Trefethen 2013, Approximation Theory and Approximation Practice, th. 19.3.
-      const GaussRule &choose(double ellipse)
+      const GaussRule &choose(double ellipse, unsigned int extra)
       {
         constexpr double half_of_digits = 9.2;
-        n = 2 + static_cast<unsigned int>(half_of_digits / std::log(ellipse));
+        n = 2 + extra + static_cast<unsigned int>(half_of_digits / std::log(ellipse));
         if (!(n <= most)) // not for sides within the horizon
           n = most;
         return gauss(n);
@@ -168,12 +142,7 @@ namespace plumbline::reference
   JumpPairs::JumpPairs(const physics::Kernel<3> &kernel, double tolerance) : tolerance_(tolerance)
   {
     for (const PotentialTerms &terms : FacePotential::terms(kernel))
-    {
-      Part part{terms.end, powers_of(terms, 2), powers_of(terms, 3)};
-      for (double &power : part.harmonic)
-        power = -power;
-      parts_.push_back(std::move(part));
-    }
+      parts_.push_back({{terms, 2}, {terms, 3}});
     for (const unsigned int n : {3, 5, 7})
       rules_[0].push_back(make_rule(n));
     for (unsigned int k = 0; k < 2; ++k)
@@ -275,7 +244,7 @@ namespace plumbline::reference
       at_foot[b] = (b == 0 ? 1. : 0.) - face.slope[b] * first;
     for (const Part &part : parts_)
     {
-      if (distance >= part.end)
+      if (distance >= part.end())
         continue;
       Values foot;
       const double nearest = std::max(distance, flat);
@@ -306,13 +275,13 @@ namespace plumbline::reference
   {
     const double kappa = side.kappa, of_kappa = kappa * kappa,
                  square = of_kappa + distance * distance,
-                 reach = std::sqrt(std::max(0., part.end * part.end - square));
+                 reach = std::sqrt(std::max(0., part.end() * part.end() - square));
     const auto angle = [&](double from, double to)
     { return std::atan2(kappa * (to - from), of_kappa + from * to); };
     const double from = std::max(side.from, -reach), to = std::min(side.to, reach);
     if (from < to)
     {
-      const LinePoints points(from, to, square);
+      const LinePoints points(from, to, square, part.biharmonic.extra_points(to - from));
       std::array<double, LinePoints::most> harmonic, biharmonic; // filled up to n
       values(part, points.r.data(), harmonic.data(), biharmonic.data(), points.n);
       double of_harmonic = 0, of_biharmonic = 0;
@@ -340,16 +309,15 @@ namespace plumbline::reference
   void JumpPairs::values(const Part &part, const double *r, double *harmonic, double *biharmonic,
                          unsigned int n)
   {
-    const auto polynomial = [r, n](const std::vector<double> &powers, double *sums)
+    constexpr unsigned int at_once = RadialPolynomial<double>::most_radii;
+    for (unsigned int first = 0; first < n; first += at_once)
     {
-      for (unsigned int q = 0; q < n; ++q)
-        sums[q] = powers.back();
-      for (std::size_t k = powers.size() - 1; k-- > 0;)
-        for (unsigned int q = 0; q < n; ++q)
-          sums[q] = sums[q] * r[q] + powers[k];
-    };
-    polynomial(part.harmonic, harmonic);
-    polynomial(part.biharmonic, biharmonic);
+      const unsigned int size = std::min(at_once, n - first);
+      part.harmonic.potential().evaluate(r + first, harmonic + first, size);
+      part.biharmonic.potential().evaluate(r + first, biharmonic + first, size);
+    }
+    for (unsigned int q = 0; q < n; ++q)
+      harmonic[q] = -harmonic[q];
     for (unsigned int q = 0; q < n; ++q)
       biharmonic[q] /= r[q];
   }

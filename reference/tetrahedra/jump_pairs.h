@@ -49,11 +49,11 @@ namespace plumbline::reference
       std::vector<std::array<double, 3>> points;
       std::vector<double> weights;
     };
-    /// For r < end: H = Σ harmonic[k] r^k, r Ψ = Σ biharmonic[k] r^k.
+    /// For r < end: -H of Λ, and r Ψ.
     struct Part
     {
-      double end = 1;
-      std::vector<double> harmonic, biharmonic;
+      double end() const { return biharmonic.end(); }
+      PotentialPart<double> harmonic, biharmonic; ///< their r f
     };
     /// H of both potentials.
     struct Values

@@ -359,13 +359,13 @@ namespace plumbline::reference
                          Sum<Real> &result) const
     {
       using std::sqrt;
-      const double least_axis = GaussRules<Real>::get().least_axis();
       constexpr unsigned int most_depth = 60;
       const Real size = at[1] - at[0];
       const Real eta = square + function.distance() * function.distance();
       const Real axis = (sqrt(at[0] * at[0] + eta) + sqrt(at[1] * at[1] + eta)) / size;
       Real cut = at[0] < 0 && at[1] > 0 ? Real(0) : Real((at[0] + at[1]) / 2);
-      bool is_cut = axis < least_axis;
+      const unsigned int extra = extra_points(parts_, size);
+      bool is_cut = GaussRules<Real>::get().must_cut(static_cast<double>(axis), extra);
       for (const PotentialPart<Real> &part : parts_)
         if (const Real end = part.end() * part.end() - eta; end > 0)
           for (const Real &root : {Real(sqrt(end)), Real(-sqrt(end))})
@@ -381,7 +381,7 @@ namespace plumbline::reference
         add_along_piece({cut, at[1]}, {middle, weights[1]}, square, function, depth + 1, result);
         return;
       }
-      const auto &rule = GaussRules<Real>::get().for_ellipse(axis);
+      const auto &rule = GaussRules<Real>::get().for_ellipse(axis, extra);
       for (unsigned int q = 0; q < rule.n; ++q)
       {
         const Real t = (1 + rule.points[q]) / 2, tau = at[0] + size * t;

@@ -226,15 +226,35 @@ namespace plumbline::reference
       Wide square, height, centre, half, foot;
     };
 
-    /// (H - foot) / ρ² at one point. @param size  coefficients
+    /// @param size  coefficients; 0: of a series
+    template <std::size_t size>
+    PLUMBLINE_INLINE Wide polynomial(const PieceForm &form, const Wide &r)
+    {
+      if constexpr (size > 0)
+      {
+        Wide sum = all(form.c[size - 1]);
+        for (std::size_t j = size - 1; j-- > 0;)
+          sum = sum * r + form.c[j];
+        return sum;
+      }
+      const Wide x = 4 * r - 2;
+      Wide sum = all(0), before = all(0);
+      for (std::size_t j = form.n - 1; j > 0; --j)
+      {
+        const Wide now = x * sum + (form.c[j] - before);
+        before = sum;
+        sum = now;
+      }
+      return x * sum * .5 + (form.c[0] - before);
+    }
+
+    /// (H - foot) / ρ² at one point.
     template <PieceForm::Kind kind, std::size_t size>
     PLUMBLINE_INLINE Wide term(const PieceForm &form, const WidePieces &pieces, double point)
     {
       const Wide tau = pieces.centre + pieces.half * point;
       const Wide s = pieces.square + tau * tau, r2 = s + pieces.height, r = root(r2);
-      Wide sum = all(form.c[size - 1]);
-      for (std::size_t j = size - 1; j-- > 0;)
-        sum = sum * r + form.c[j];
+      const Wide sum = polynomial<size>(form, r);
       if constexpr (kind == PieceForm::Kind::inside)
         return (sum * r - pieces.foot) / s;
       if constexpr (kind == PieceForm::Kind::outside)
@@ -261,8 +281,10 @@ namespace plumbline::reference
     PLUMBLINE_INLINE void sum_by_size(const PieceForm &form, const double *points,
                                       const double *weights, unsigned int n, PieceLanes &lanes)
     {
-      constexpr std::size_t few = 2, some = 3, more = 6, many = 8;
-      if (form.n <= few)
+      constexpr std::size_t few = 2, some = 3, more = 6, many = 8, most = 64;
+      if (form.is_series)
+        sum<kind, 0>(form, points, weights, n, lanes);
+      else if (form.n <= few)
         sum<kind, few>(form, points, weights, n, lanes);
       else if (form.n <= some)
         sum<kind, some>(form, points, weights, n, lanes);
@@ -273,7 +295,7 @@ namespace plumbline::reference
       else if (form.n <= 2 * many)
         sum<kind, 2 * many>(form, points, weights, n, lanes);
       else
-        sum<kind, PieceForm::most_coefficients>(form, points, weights, n, lanes);
+        sum<kind, most>(form, points, weights, n, lanes);
     }
   } // namespace
 

@@ -62,13 +62,14 @@ namespace plumbline::reference
   {
     enum class Kind
     {
-      compact, ///< H = -(end - r)^power Σ c_j r^j / r²
-      inside,  ///< H = r Σ c_j r^j
+      compact, ///< H = -(end - r)^power Σ c_j r^j / r², or of T_j(2 r - 1): see RadialPolynomial
+      inside,  ///< H = r Σ c_j r^j, or of T_j
       outside  ///< H = (c_0 + c_1 r + c_2 r²) / r²
     };
-    static constexpr std::size_t most_coefficients = 64;
+    static constexpr std::size_t most_coefficients = 144; ///< few powers, or a series
 
     Kind kind = Kind::compact;
+    bool is_series = false;
     double end = 0;
     int power = 0; ///< 5 or 7
     std::size_t n = 0;

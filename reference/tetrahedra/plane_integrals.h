@@ -71,23 +71,31 @@ namespace plumbline::reference
 
     /// For integrands analytic in the ellipse about the interval whose half axis, in half
     /// lengths, is a; with a zero of order 7 near by, which makes values small.
-    const Rule &for_ellipse(const Real &a) const
+    /// @param extra  points that the integrand takes besides, as it is multiplied by a polynomial
+    /// of twice this degree
+    const Rule &for_ellipse(const Real &a, unsigned int extra = 0) const
     {
-      return rules_[number_for_ellipse(static_cast<double>(a))];
+      return rules_[number_for_ellipse(static_cast<double>(a), extra)];
     }
 
-    std::size_t number_for_ellipse(double axis) const
+    std::size_t number_for_ellipse(double axis, unsigned int extra = 0) const
     {
       std::size_t k = 0;
       while (k + 1 < n_rules && axis < least_axis_[k])
+        ++k;
+      for (const unsigned int n = sizes[k] + extra; k + 1 < n_rules && sizes[k] < n;)
         ++k;
       return k;
     }
 
     const Rule &rule(std::size_t number) const { return rules_[number]; }
 
-    /// Pieces with a smaller half axis are cut.
-    double least_axis() const { return std::max(1.44, least_axis_.back()); }
+    /// Whether a piece has to be cut: its half axis is small, or no rule has enough points.
+    bool must_cut(double axis, unsigned int extra = 0) const
+    {
+      return !(axis >= std::max(1.44, least_axis_.back())) ||
+             (extra > 0 && sizes[number_for_ellipse(axis)] + extra > most_points);
+    }
 
     static Real epsilon() { return std::numeric_limits<Real>::epsilon(); }
 
@@ -151,6 +159,16 @@ namespace plumbline::reference
     std::array<Rule, sizes.size()> rules_;
     std::array<double, sizes.size()> least_axis_{};
   };
+
+  /// Of all parts: the most.
+  template <class Real>
+  unsigned int extra_points(const std::vector<PotentialPart<Real>> &parts, const Real &length)
+  {
+    unsigned int most = 0;
+    for (const PotentialPart<Real> &part : parts)
+      most = std::max(most, part.extra_points(static_cast<double>(length)));
+    return most;
+  }
 
   /// H of r = √(ρ² + d²), ρ a distance in a plane that is d away from the origin.
   template <class Real>
@@ -254,10 +272,14 @@ namespace plumbline::reference
         if (d_ < end)
         {
           const Real upper = std::min(rho, reach);
-          if (upper < 1.5 * d_)
-            add_by_rule(part, upper, sum);
-          else
+          constexpr double near = 1.5, far = 3; // pieces are as long as poles at ±i d allow
+          if (upper < near * d_)
+            add_by_rule(part, 0, upper, sum);
+          else if (!part.potential().is_series)
             add_in_closed_form(part, upper, sum);
+          else
+            for (Real from = 0, to = near * d_; from < upper; from = to, to = far * from)
+              add_by_rule(part, from, std::min(to, upper), sum);
         }
         if (!is_plane_ && rho > reach)
           add_beyond(part, reach, rho, sum);
@@ -265,10 +287,10 @@ namespace plumbline::reference
       return sum;
     }
 
-    /// Σ coefficient_j r^(j-1) is g₁, or f.
-    const Real &coefficient(const PotentialPart<Real> &part, std::size_t j) const
+    /// r f, or r g₁.
+    const RadialPolynomial<Real> &polynomial(const PotentialPart<Real> &part) const
     {
-      return is_plane_ ? part.powers()[j] : part.powers_of_edges()[j];
+      return is_plane_ ? part.potential() : part.of_edges();
     }
 
     /// 1/n.
@@ -285,22 +307,28 @@ namespace plumbline::reference
       return values;
     }
 
-    void add_by_rule(const PotentialPart<Real> &part, const Real &upper,
+    void add_by_rule(const PotentialPart<Real> &part, const Real &from, const Real &to,
                      std::array<Real, 3> &sum) const
     {
       using std::sqrt;
-      if (!(upper > 0))
+      if (!(to > from))
         return;
-      const Real axis = (d_ + sqrt(upper * upper + square_)) / upper; // poles at ±i d
-      const auto &rule = GaussRules<Real>::get().for_ellipse(axis);
-      const Real half = upper / 2;
+      const Real size = to - from;
+      const Real axis = (sqrt(from * from + square_) + sqrt(to * to + square_)) / size;
+      const unsigned int extra = part.extra_points(static_cast<double>(size));
+      if (extra > 0 && GaussRules<Real>::get().must_cut(static_cast<double>(axis), extra))
+      {
+        const Real cut = (from + to) / 2;
+        add_by_rule(part, from, cut, sum);
+        add_by_rule(part, cut, to, sum);
+        return;
+      }
+      const auto &rule = GaussRules<Real>::get().for_ellipse(axis, extra);
+      const Real half = size / 2;
       for (unsigned int q = 0; q < rule.n; ++q)
       {
-        const Real sigma = half * (1 + rule.points[q]), r = sqrt(sigma * sigma + square_);
-        Real value = 0;
-        for (std::size_t j = part.powers().size(); j-- > 0;)
-          value = value * r + coefficient(part, j);
-        value *= half * rule.weights[q] / r * sigma;
+        const Real sigma = from + half * (1 + rule.points[q]), r = sqrt(sigma * sigma + square_);
+        const Real value = polynomial(part)(r) * (half * rule.weights[q] / r * sigma);
         sum[0] += value;
         sum[1] += value * sigma;
         sum[2] += value * sigma * sigma;
@@ -315,7 +343,8 @@ namespace plumbline::reference
       const Real r = sqrt(rho * rho + square_);
       // ∫ r^m from m = -1 and 0 by ∫ r^m = (ρ r^m + m d² ∫ r^(m-2)) / (m + 1); ∫σ r^m and ∫σ³ r^m
       // by r dr = σ dσ; ∫σ² r^m = ∫ r^(m+2) - d² ∫ r^m
-      const std::size_t size = part.powers().size();
+      const std::vector<Real> &coefficients = polynomial(part).c;
+      const std::size_t size = coefficients.size();
       std::array<Real, 64> whole, power, of_d;
       power[0] = 1 / r;
       of_d[0] = 1 / d_;
@@ -331,7 +360,7 @@ namespace plumbline::reference
         whole[k] = (rho * power[k] + square_ * whole[k - 2] * static_cast<int>(k - 1)) * inverse[k];
       for (std::size_t k = 0; k < size; ++k)
       {
-        const Real &factor = coefficient(part, k);
+        const Real &factor = coefficients[k];
         if (factor == 0)
           continue;
         const Real first = (power[k + 2] - of_d[k + 2]) * inverse[k + 1];
@@ -407,6 +436,10 @@ namespace plumbline::reference
       const Real foot = f.at_foot();
       for (unsigned int k = 0; k < n_; ++k)
         add_side(f, foot, sides_[k], sum);
+      Real growth = 1;
+      for (const PotentialPart<Real> &part : f.parts())
+        growth = std::max(growth, part.growth());
+      sum.size *= growth;
       return sum;
     }
 
@@ -476,14 +509,15 @@ namespace plumbline::reference
     {
       const Real square = kappa * kappa, eta = square + distance_ * distance_,
                  axis = half_axis(from, to, eta);
-      if (axis < GaussRules<Real>::get().least_axis() && depth < most_depth)
+      const unsigned int extra = extra_points(f.parts(), Real(to - from));
+      if (GaussRules<Real>::get().must_cut(static_cast<double>(axis), extra) && depth < most_depth)
       {
         const Real cut = middle(from, to);
         add_piece(f, foot, kappa, from, cut, depth + 1, sum);
         add_piece(f, foot, kappa, cut, to, depth + 1, sum);
         return;
       }
-      const auto &rule = GaussRules<Real>::get().for_ellipse(axis);
+      const auto &rule = GaussRules<Real>::get().for_ellipse(axis, extra);
       std::array<Real, most_points> squares, values;
       const Real centre = (from + to) / 2, half = (to - from) / 2;
       for (unsigned int q = 0; q < rule.n; ++q)
@@ -581,15 +615,17 @@ namespace plumbline::reference
       using std::abs;
       const Real square = state.kappa * state.kappa, height = distance_ * distance_;
       Real axis = half_axis(from, to, square);
-      const double least_axis = GaussRules<Real>::get().least_axis();
+      const GaussRules<Real> &rules = GaussRules<Real>::get();
+      const unsigned int extra = state.part.extra_points(static_cast<double>(to - from));
       bool is_subtracted = false;
-      if (axis < least_axis)
+      if (rules.must_cut(static_cast<double>(axis), extra))
       {
         const Real far = std::max(Real(from * from), Real(to * to));
         Real value = 0;
         state.part.add_compact(&far, square + height, &value, 1);
         axis = half_axis(from, to, square + height);
-        is_subtracted = axis >= least_axis && abs(value) > abs(state.foot) / 5;
+        is_subtracted =
+            !rules.must_cut(static_cast<double>(axis), extra) && abs(value) > abs(state.foot) / 5;
         if (!is_subtracted && depth < most_depth)
         {
           const Real cut = middle(from, to);
@@ -598,7 +634,7 @@ namespace plumbline::reference
           return;
         }
       }
-      const auto &rule = GaussRules<Real>::get().for_ellipse(axis);
+      const auto &rule = rules.for_ellipse(axis, extra);
       std::array<Real, most_points> squares, values; // filled up to rule.n
       squares[0] = 0;
       const Real centre = (from + to) / 2, half = (to - from) / 2;
@@ -613,6 +649,7 @@ namespace plumbline::reference
       for (unsigned int q = 0; q < rule.n; ++q)
         total += rule.weights[q] * values[q] / squares[q];
       sum.add(total * half * state.kappa);
+      sum.size += state.part.size_of_piece(state.kappa, from, to, height);
       if (is_subtracted)
         state.is_subtracted = true;
       else
@@ -623,12 +660,14 @@ namespace plumbline::reference
     /// the foot is on a side; then H(d) is subtracted there.
     void finish(const Compact &state, bool is_inside, Sum<Real> &sum) const
     {
+      using std::abs;
       using std::atan2;
       static const Real turn = 8 * atan2(Real(1), Real(1));
-      if (state.is_subtracted)
-        sum.add(-state.foot * state.angle());
-      else if (is_inside)
-        sum.add(-state.foot * turn);
+      const Real angle = state.is_subtracted ? state.angle() : is_inside ? turn : Real(0);
+      if (angle == 0)
+        return;
+      sum.add(-state.foot * angle);
+      sum.size += abs(angle) * state.part.size_of_compact(distance_);
     }
 
     static constexpr unsigned int most_depth = 60;

@@ -7,12 +7,6 @@ namespace plumbline::reference
   namespace
   {
     constexpr std::size_t n_rules = GaussRules<double>::n_rules;
-
-    void add_to(SharedSum &sum, double term)
-    {
-      sum.value += term;
-      sum.size += static_cast<float>(std::abs(term));
-    }
   } // namespace
 
   PlaneSums::PlaneSums(const std::vector<PotentialPart<double>> &parts) : parts_(parts)
@@ -101,8 +95,10 @@ namespace plumbline::reference
         const double kappa = planes.kappa[k][lane];
         is_inside = is_inside && kappa >= 0;
         const bool is_empty = !(planes.low[k][lane] < planes.high[k][lane]);
+        const double length = planes.high[k][lane] - planes.low[k][lane];
         is_slow =
-            is_slow || kappa == 0 || (!is_empty && !(planes.axis[k][lane] >= rules_.least_axis()));
+            is_slow || kappa == 0 ||
+            (!is_empty && rules_.must_cut(planes.axis[k][lane], parts_[part].extra_points(length)));
       }
       if (is_slow)
       {
@@ -112,14 +108,20 @@ namespace plumbline::reference
       const double factor = 1 / planes.area[lane];
       for (unsigned int k = 0; k < waiting.n_sides; ++k)
         if (planes.low[k][lane] < planes.high[k][lane])
-          add_piece(part,
-                    {planes.kappa[k][lane], height, planes.low[k][lane], planes.high[k][lane]},
-                    planes.axis[k][lane], 0, factor, *waiting.to[lane]);
+        {
+          const Range piece = {planes.kappa[k][lane], height, planes.low[k][lane],
+                               planes.high[k][lane]};
+          add_piece(part, piece, planes.axis[k][lane],
+                    parts_[part].extra_points(piece.to - piece.from), 0, factor, *waiting.to[lane]);
+          add_to(*waiting.to[lane], 0, false,
+                 factor * parts_[part].size_of_piece(piece.kappa, piece.from, piece.to, height));
+        }
       if (is_inside)
       {
         double foot = 0;
         parts_[part].add_compact(&height, 0, &foot, distance > 0 ? 1 : 0);
-        add_to(*waiting.to[lane], -foot * turn * factor);
+        add_to(*waiting.to[lane], -foot * turn * factor, false,
+               factor * turn * parts_[part].size_of_compact(distance));
       }
     }
   }
@@ -171,7 +173,8 @@ namespace plumbline::reference
         return;
       const double axis =
           (std::sqrt(from * from + eta) + std::sqrt(end * end + eta)) / (end - from);
-      if (axis < rules_.least_axis() && depth < most_depth)
+      const unsigned int extra = parts_.front().extra_points(end - from);
+      if (rules_.must_cut(axis, extra) && depth < most_depth)
       {
         const double cut = from < 0 && end > 0 ? 0 : (from + end) / 2;
         again(from, cut, depth + 1, again);
@@ -179,7 +182,8 @@ namespace plumbline::reference
         return;
       }
       const bool is_inside = std::abs(from + end) < 2 * reach;
-      add_piece(is_inside ? 1 : 2, {side.kappa, side.height, from, end}, axis, foot, factor, to);
+      add_piece(is_inside ? 1 : 2, {side.kappa, side.height, from, end}, axis, extra, foot, factor,
+                to);
     };
     double from = side.from;
     for (const double cut : {-reach, reach})
@@ -191,10 +195,10 @@ namespace plumbline::reference
     add(from, side.to, 0, add);
   }
 
-  void PlaneSums::add_piece(std::size_t form, const Range &piece, double axis, double foot,
-                            double factor, SharedSum &to)
+  void PlaneSums::add_piece(std::size_t form, const Range &piece, double axis, unsigned int extra,
+                            double foot, double factor, SharedSum &to)
   {
-    const std::size_t rule = rules_.number_for_ellipse(axis);
+    const std::size_t rule = rules_.number_for_ellipse(axis, extra);
     Pieces &pieces = pieces_[form * n_rules + rule];
     const double half = (piece.to - piece.from) / 2;
     pieces.pieces[pieces.n++] = {
@@ -225,10 +229,17 @@ namespace plumbline::reference
       for (unsigned int lane = 0; lane < n; ++lane)
       {
         const Piece &piece = pieces.pieces[first + lane];
-        add_to(*piece.to, piece.factor * lanes.total[lane]);
+        add_to(*piece.to, piece.factor * lanes.total[lane], form >= parts_.size());
       }
     }
     pieces.n = 0;
+  }
+
+  void PlaneSums::add_to(SharedSum &to, double term, bool is_regular, double of_series) const
+  {
+    to.value += term;
+    to.size +=
+        static_cast<float>(std::abs(term) * (is_regular ? parts_.front().growth() : 1) + of_series);
   }
 
   void PlaneSums::finish()

@@ -67,9 +67,11 @@ namespace plumbline::reference
     void add_regular(const Waiting &waiting);
     void add_slowly(const Waiting &waiting, unsigned int lane, std::size_t part);
     void add_regular_side(const Range &side, double foot, double factor, SharedSum &to);
-    void add_piece(std::size_t form, const Range &piece, double axis, double foot, double factor,
-                   SharedSum &to);
+    void add_piece(std::size_t form, const Range &piece, double axis, unsigned int extra,
+                   double foot, double factor, SharedSum &to);
     void sum(std::size_t form, std::size_t rule);
+    /// to += term, with the round-off of values of regular functions, or of compact ones.
+    void add_to(SharedSum &to, double term, bool is_regular, double of_series = 0) const;
 
     const std::vector<PotentialPart<double>> &parts_;
     const GaussRules<double> &rules_ = GaussRules<double>::get();

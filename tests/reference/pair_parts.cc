@@ -2,6 +2,7 @@
 // each other, edges made parallel to all digits, polygons in planes, and many pairs at a time
 // against one at a time with all digits, also where vertices are in line. And that entries do not
 // depend on the number of threads.
+#include "physics/gauss.h"
 #include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/exact_pairs.h"
 #include "reference/tetrahedra/pair_form.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 namespace
@@ -265,15 +267,121 @@ TEST(ManyPairs, are_those_with_all_digits_up_to_their_bounds)
     }
 }
 
-TEST(FacePotentials, refuse_powers_that_antiderivatives_have_no_room_for)
+TEST(FacePotentials, of_series_are_integrals_of_the_profile)
 {
-  const auto refusal = [](int highest)
+  const auto &gauss = physics::gauss(64);
+  for (const auto &[type, width] :
+       {std::pair<std::string, double>("gaussian", .5), {"gaussian", .05}, {"exponential", .3}})
+  {
+    const auto profile = physics::kernel_type(type).make({{}, 0, width});
+    const physics::Kernel<3> kernel(physics::Structure::scalar, profile, 1, 1);
+    EXPECT_EQ(FacePotential::refuse(kernel), "");
+    EXPECT_NE(FacePotential::note(kernel).find("Chebyshev series"), std::string::npos);
+    const double error = ProfileSeries(profile).error;
+    EXPECT_LT(error, width > .1 ? 1e-14 : 1e-12) << type << " " << width;
+    for (const Kind kind : {Kind::harmonic, Kind::biharmonic})
+      for (const double r : {.01, .1, .4, .9})
+      {
+        const auto integral = [&](const std::function<double(double)> &f, double from, double to)
+        {
+          double sum = 0;
+          constexpr unsigned int n_parts = 8;
+          for (unsigned int part = 0; part < n_parts; ++part)
+            for (unsigned int q = 0; q < gauss.size(); ++q)
+              sum += (to - from) / n_parts * gauss.weight(q) *
+                     f(from + (to - from) * (part + gauss.point(q)[0]) / n_parts);
+          return sum;
+        };
+        const auto potential = [&](double s)
+        {
+          return integral(
+                     [&](double t) {
+                       return t * profile(t) *
+                              (kind == Kind::harmonic ? t - s : std::pow(t - s, 3) / 6);
+                     },
+                     s, 1) /
+                 s;
+        };
+        // what the error makes of t - r <= 1, and round-off
+        const double square = r * r, weight = 1,
+                     allowed = (error * profile.moment(2) + 1e-15 * .01 * potential(.01)) / r;
+        const FacePotential f(kernel, kind);
+        EXPECT_NEAR(f.sum(&square, &weight, 1), potential(r), allowed);
+        const double rays =
+            integral([&](double s) { return std::pow(s, 3) * potential(s * r); }, 0, 1);
+        EXPECT_NEAR(f.sum_of_rays(&square, &weight, 1), rays, allowed);
+      }
+  }
+}
+
+TEST(FacePotentials, of_high_powers_are_those_of_a_series)
+{
+  const auto kernel = [](int highest)
   {
     const physics::RadialProfile::Powers powers = {{1, 0}, {.01, highest}};
-    return FacePotential::refuse(physics::Kernel<3>::with_diffusion(powers, 1, 1));
+    return physics::Kernel<3>::with_diffusion(powers, 1, 1);
   };
-  EXPECT_EQ(refusal(50), "");
-  EXPECT_NE(refusal(51).find("powers up to r^50, not r^51; give fewer"), std::string::npos);
+  EXPECT_EQ(FacePotential::note(kernel(50)), "");
+  EXPECT_NE(FacePotential::note(kernel(60)), "");
+  EXPECT_EQ(FacePotential::refuse(kernel(60)), "");
+  EXPECT_NE(FacePotential::refuse(kernel(2000)).find("give fewer coefficients"), std::string::npos);
+}
+
+// The same kernels by their powers, and by one table of t ρ.
+TEST(ManyPairs, of_a_series_are_those_of_powers_and_those_with_all_digits)
+{
+  const std::vector<PairFace> faces = some_faces(25);
+  std::vector<NumberedFace> all;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
+  std::vector<const NumberedFace *> others;
+  for (const NumberedFace &face : all)
+    others.push_back(&face);
+  using physics::RadialProfile;
+  const auto one = RadialProfile::smooth([](double) { return 1; }, true);
+  const auto quartic = RadialProfile::smooth([](double t) { return std::pow(1 - t, 4); }, false);
+  struct Case
+  {
+    std::string name;
+    Kind kind = Kind::biharmonic;
+    RadialProfile series, powers; ///< powers: may be empty
+  };
+  const std::vector<Case> cases = {
+      {"constant", Kind::harmonic, one, {{1, 0}}},
+      {"1/r", Kind::biharmonic, one.over_t(), {{1, -1}}},
+      {"quartic", Kind::biharmonic, quartic, {{1, 0}, {-4, 1}, {6, 2}, {-4, 3}, {1, 4}}},
+      {"gaussian", Kind::biharmonic, physics::kernel_type("gaussian").make({{}, 0, .4}), {}},
+      {"narrow", Kind::harmonic, physics::kernel_type("gaussian").make({{}, 0, .1}), {}},
+      {"exponential", Kind::harmonic, physics::kernel_type("exponential").make({{}, 0, .3}), {}}};
+  for (const auto &[name, kind, series, powers] : cases)
+  {
+    const physics::Kernel<3> kernel(physics::Structure::scalar, series, 1, 1);
+    const double tolerance = 3e-17 * series.moment(2);
+    const ExactPairs exact(kernel, kind, tolerance);
+    ExactPairs::Shared shared;
+    shared.start({others.front()}, others);
+    std::vector<ExactPairs::Integral> integrals;
+    exact(all.front(), others, shared, integrals);
+    double largest = 0;
+    for (const ExactPairs::Integral &integral : integrals)
+      largest = std::max(largest, std::abs(integral.value));
+    for (std::size_t k = 0; k < faces.size(); ++k)
+    {
+      const double value = integrals[k].value;
+      EXPECT_LE(integrals[k].error, tolerance);
+      if (k % 3 == 0)
+      {
+        EXPECT_NEAR(value, exact.precise(faces.front(), faces[k]),
+                    integrals[k].error + 4e-16 * std::abs(value) + 1e-2 * tolerance)
+            << name << " " << k;
+      }
+      if (powers.is_empty())
+        continue;
+      const ExactPairs by_powers({physics::Structure::scalar, powers, 1, 1}, kind, tolerance);
+      EXPECT_NEAR(value, by_powers(faces.front(), faces[k]).value, tolerance + 1e-15 * largest)
+          << name << " " << k;
+    }
+  }
 }
 
 TEST(PlaneIntegrals, see_no_foot_that_is_on_the_line_of_a_side_but_beyond_it)

@@ -259,6 +259,48 @@ TEST(TetrahedralEntries, of_kernels_with_breaks_and_of_polynomials_are_sums)
   EXPECT_LT(worst / decay.at(0), 1e-12);
 }
 
+TEST(TetrahedralEntries, of_functions_are_those_of_powers_and_of_quadrature)
+{
+  const double horizon = 1.5;
+  for (const bool is_continuous : {true, false})
+  {
+    const TetrahedralSpace space(moved_mesh(3, .1), is_continuous);
+    const auto row = [&](const physics::RadialProfile &profile, const FaceRule &rule)
+    {
+      return first_row(
+          assemble_by_faces(space, {physics::Structure::scalar, profile, horizon, 1}, 1, rule));
+    };
+    const auto worst = [](const auto &a, const auto &b)
+    {
+      double change = 0;
+      for (const auto &[column, value] : a)
+      {
+        const auto other = b.find(column); // all may cancel
+        change = std::max(change, std::abs((other == b.end() ? 0 : other->second) - value));
+      }
+      return change / a.at(0);
+    };
+    const auto decay = physics::RadialProfile::smooth([](double t) { return 1 - t; }, false);
+    EXPECT_LT(worst(row({{1, 0}, {-1, 1}}, FaceRule::exact()), row(decay, FaceRule::exact())),
+              1e-12);
+    const auto gaussian = physics::kernel_type("gaussian").make({{}, 0, .4});
+    const auto exact = row(gaussian, FaceRule::exact());
+    EXPECT_LT(worst(exact, row(gaussian, FaceRule::quadrature(1))), 2e-2);
+    double sum = 0;
+    dealii::Tensor<1, 3> first;
+    for (const auto &[column, value] : exact)
+    {
+      sum += value;
+      first += value * (space.support(column) - space.support(0));
+    }
+    EXPECT_NEAR(sum / exact.at(0), 0, 1e-12);
+    if (is_continuous)
+    {
+      EXPECT_NEAR(first.norm() / exact.at(0), 0, 1e-12);
+    }
+  }
+}
+
 TEST(TetrahedralEntries, on_lattices_are_repeated)
 {
   const auto lattice = cubes(1.5, .5);
@@ -303,10 +345,9 @@ TEST(TetrahedralEntries, are_refused_for_kernels_without_potentials)
   EXPECT_EQ(refused("1/r", {{1, -1}}), "");
   EXPECT_NE(refused("1/r", {{1, -2}}).find("1/r"), std::string::npos);
   EXPECT_NE(refused("bond-tensor", {{1, -1}}).find("scalar kernels"), std::string::npos);
-  EXPECT_NE(refused("constant",
-                    physics::RadialProfile::smooth([](double t) { return std::exp(-t * t); }, true))
-                .find("sums of powers"),
-            std::string::npos);
+  EXPECT_EQ(refused("constant", physics::RadialProfile::smooth(
+                                    [](double t) { return std::exp(-t * t); }, true)),
+            "");
 }
 
 TEST(TetrahedralFields, are_linear_where_they_should_be)

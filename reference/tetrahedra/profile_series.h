@@ -1,0 +1,87 @@
+#pragma once
+
+#include "physics/radial_profile.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline::reference
+{
+  /// A polynomial of r by its powers, or a series of Chebyshev polynomials of 2 r - 1.
+  template <class Real>
+  struct RadialPolynomial
+  {
+    static constexpr unsigned int most_radii = 64; ///< at a time
+
+    std::vector<Real> c; ///< at least one
+    bool is_series = false;
+
+    void evaluate(const Real *r, Real *values, unsigned int n) const;
+    Real operator()(const Real &r) const
+    {
+      Real value;
+      evaluate(&r, &value, 1);
+      return value;
+    }
+  };
+
+  /// t ρ(t) of a radial profile on [0, 1] as a Chebyshev series: the one table that stands for a
+  /// kernel that is no sum of few powers. All that follows from it is exact.
+  struct ProfileSeries
+  {
+    explicit ProfileSeries(const physics::RadialProfile &profile);
+
+    std::vector<double> coefficients;
+    /// What ∫ t |t ρ - series| dt may be, relative to ∫ t² ρ: of the kernel's integral over its
+    /// ball, by values between the points of interpolation.
+    double error = 0;
+  };
+
+  /// The radial functions of PotentialPart as Chebyshev series, of t γ as one.
+  struct PotentialSeries
+  {
+    /// Doubles that add up to a number of some 260 bits.
+    using Number = std::array<double, 5>;
+    using Series = std::vector<Number>;
+
+    /// @param profile  coefficients of t γ
+    /// @param order  n of PotentialPart
+    PotentialSeries(const std::vector<double> &profile, int order);
+
+    Series potential, of_edges, density; ///< r f, r g₁ and r g (regular)
+    Series regular;                      ///< H / r
+    Series compact;                      ///< -r² H / (1 - r)^(n+4)
+    std::array<Number, 3> moments;       ///< ∫_0^1 r^k f r dr
+  };
+
+  template <class Real>
+  void RadialPolynomial<Real>::evaluate(const Real *r, Real *values, unsigned int n) const
+  {
+    const std::size_t size = c.size();
+    if (!is_series)
+    {
+      for (unsigned int q = 0; q < n; ++q)
+        values[q] = c[size - 1];
+      for (std::size_t j = size - 1; j-- > 0;)
+        for (unsigned int q = 0; q < n; ++q)
+          values[q] = values[q] * r[q] + c[j];
+      return;
+    }
+    std::array<Real, most_radii> x, last; // filled up to n; Clenshaw's recurrence
+    for (unsigned int q = 0; q < n; ++q)
+    {
+      x[q] = 4 * r[q] - 2;
+      values[q] = last[q] = 0;
+    }
+    for (std::size_t j = size - 1; j > 0; --j)
+      for (unsigned int q = 0; q < n; ++q)
+      {
+        const Real next = x[q] * values[q] + (c[j] - last[q]);
+        last[q] = values[q];
+        values[q] = next;
+      }
+    for (unsigned int q = 0; q < n; ++q)
+      values[q] = x[q] * values[q] / 2 + (c[0] - last[q]);
+  }
+} // namespace plumbline::reference
