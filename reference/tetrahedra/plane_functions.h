@@ -217,6 +217,7 @@ namespace plumbline::reference
   {
     using std::sqrt;
     std::array<Real, most_radii> r, sum; // filled up to n
+    r[0] = 0;
     for (unsigned int q = 0; q < n; ++q)
       r[q] = sqrt(squares[q] + offset);
     compact_.evaluate(r.data(), sum.data(), n);
