@@ -337,12 +337,14 @@ namespace plumbline::app
         add_jobs(command, request, *options);
       if (row.takes_directions)
         add_directions(command, *words);
-      set_action(command, request, options,
-                 [&row, words](AnalyseOptions given)
-                 {
-                   given.directions = words->read();
-                   return analyse(row, given);
-                 });
+      set_action(
+          command, request, options,
+          [&row, words](AnalyseOptions given)
+          {
+            given.directions = words->read();
+            return analyse(row, given);
+          },
+          !row.has_checkpoint);
     }
 
     void add_sample(CLI::App &app, Request &request)

@@ -19,6 +19,7 @@
 #include "report/pdf.h"
 #include "scene/required_keys.h"
 #include "study/reference_estimate.h"
+#include "study/work_of_ranks.h"
 
 #include <algorithm>
 #include <iostream>
@@ -132,6 +133,56 @@ namespace plumbline::driver
         return io::RecordJournal(journal_file(), subject()).earlier();
       }
 
+      /// The same by ranks, of which this is the first. @note Collective, as do_own_tasks.
+      study::StudyResults share(const study::StudyResults &head,
+                                const std::vector<std::uint64_t> &tasks,
+                                const method::Methods &methods, base::ProgressLine &progress)
+      {
+        journal_.append(head);
+        (void)base::of_first_rank(task_.task_ranks, tasks);
+        const auto show = [&](std::size_t n_done)
+        {
+          progress.show(std::to_string(n_done) + " of " + report::counted(tasks.size(), "task") +
+                            " begun by ranks",
+                        static_cast<double>(n_done) / static_cast<double>(tasks.size()));
+        };
+        Work(task_, options_, scene_, folder_).do_own_tasks(tasks, methods, show);
+        return io::RecordJournal(journal_file(), subject()).earlier();
+      }
+
+      /// What a rank does of the tasks: every n-th one.
+      void do_own_tasks(const std::vector<std::uint64_t> &tasks, const method::Methods &methods,
+                        const std::function<void(std::size_t n_begun)> &show)
+      {
+        const base::Communicator &ranks = task_.task_ranks;
+        std::size_t next = ranks.rank();
+        do_tasks(methods,
+                 [&](std::uint64_t &task)
+                 {
+                   show(std::min<std::size_t>(next, tasks.size()));
+                   if (next >= tasks.size())
+                     return false;
+                   task = tasks[next];
+                   next += ranks.n_ranks();
+                   return true;
+                 });
+        ranks.wait();
+      }
+
+      /// What a worker does, be it a process or a rank.
+      /// @param next  gives the next task, until there are no more
+      void do_tasks(const method::Methods &methods,
+                    const std::function<bool(std::uint64_t &task)> &next)
+      {
+        journal_.join();
+        study::RunControl own = control();
+        if (task_.take_over)
+          task_.take_over(own.earlier);
+        own.should_stop = is_interrupted;
+        own.next_task = next;
+        (void)run_study(task_.analysis, scene_, methods, own);
+      }
+
     private:
       /// All that records depend on.
       std::string subject() const
@@ -184,24 +235,21 @@ namespace plumbline::driver
       const std::string given = "--jobs = " + std::to_string(options.n_jobs);
       if (const auto n_ranks = base::Communicator::all().n_ranks(); n_ranks > 1)
         throw InputError(given + " on " + std::to_string(n_ranks) +
-                         " ranks: ranks share the work of each method; use one or the other");
+                         " ranks, which share the work themselves; use one or the other");
       if (!task.goes_on)
         throw InputError(given + ": each method is compared with its own finest level (Study/"
                                  "decisive error), for which one process keeps all solutions; "
                                  "leave out --jobs, or choose another error");
     }
 
-    /// What a worker does: tasks whose numbers come from standard input.
-    int run_tasks(const Task &task, const scene::Scene &scene, const method::Methods &methods,
-                  Work &work)
+    /// What ranks other than the first do, until it hands out no more tasks.
+    void do_tasks_of_ranks(const Task &task, const AnalyseOptions &options,
+                           const scene::Scene &scene, const method::Methods &methods,
+                           const fs::path &folder)
     {
-      work.journal().join();
-      study::RunControl control = work.control();
-      if (task.take_over)
-        task.take_over(control.earlier);
-      control.next_task = base::next_task;
-      (void)run_study(task.analysis, scene, methods, control);
-      return 0;
+      for (auto tasks = base::of_first_rank(task.task_ranks, {}); !tasks.empty();
+           tasks = base::of_first_rank(task.task_ranks, {}))
+        Work(task, options, scene, folder).do_own_tasks(tasks, methods, [](std::size_t) {});
     }
 
     void tell_warnings(const study::StudyResults &results)
@@ -248,6 +296,14 @@ namespace plumbline::driver
     return methods;
   }
 
+  void share_tasks(Task &task)
+  {
+    task.ranks = base::Communicator::alone();
+    task.task_ranks = base::Communicator::all();
+    if (task.task_ranks.n_ranks() > 1)
+      task.provenance["work of ranks"] = study::work_of_tasks;
+  }
+
   int analyse(const MakeTask &make_task, const AnalyseOptions &options, const scene::Scene &scene)
   {
     if (!(options.budget >= 0))
@@ -268,13 +324,19 @@ namespace plumbline::driver
     progress.reset();
     if (options.is_worker)
     {
-      Work work(task, options, scene, folder);
-      return run_tasks(task, scene, methods, work);
+      Work(task, options, scene, folder).do_tasks(methods, base::next_task);
+      return 0;
     }
-    const bool is_shared = options.n_jobs > 1;
+    const bool is_shared = options.n_jobs > 1, is_shared_by_ranks = task.task_ranks.n_ranks() > 1;
+    const base::Communicator &ranks = is_shared_by_ranks ? task.task_ranks : task.ranks;
     is_shared ? watch_interrupts(end_of_workers) : watch_interrupts();
-    const io::OutputFolder output(folder, {task.command, scene.name, scene.text, note}, task.ranks);
-    base::on_first_rank(task.ranks, [&] { require_writable(folder / (task.file + ".json")); });
+    const io::OutputFolder output(folder, {task.command, scene.name, scene.text, note}, ranks);
+    base::on_first_rank(ranks, [&] { require_writable(folder / (task.file + ".json")); });
+    if (is_shared_by_ranks && ranks.rank() != 0)
+    {
+      do_tasks_of_ranks(task, options, scene, methods, folder);
+      return 0;
+    }
     Work work(task, options, scene, folder);
     study::RunControl control = work.control();
     control.should_stop = [&] { return task.ranks.any(is_interrupted()); };
@@ -291,9 +353,14 @@ namespace plumbline::driver
     if (is_shared)
       control.share = [&](const study::StudyResults &head, const std::vector<std::uint64_t> &tasks)
       { return work.share(head, tasks, *progress, code_of_workers); };
+    if (is_shared_by_ranks)
+      control.share = [&](const study::StudyResults &head, const std::vector<std::uint64_t> &tasks)
+      { return work.share(head, tasks, methods, *progress); };
     control.is_shared_by_level = static_cast<bool>(task.take_over);
     base::on_first_rank(task.ranks, [&] { work.take_over(control.earlier); });
     const study::StudyResults results = run_study(task.analysis, scene, methods, control);
+    if (is_shared_by_ranks)
+      (void)base::of_first_rank(ranks, {}); // there are no more tasks
     progress.reset();
     base::on_first_rank(task.ranks,
                         [&]
@@ -320,6 +387,8 @@ namespace plumbline::driver
     {
       Task task{row.make({checkpoints, options.directions, true}), row.view};
       task.has_checkpoint = row.has_checkpoint;
+      if (!row.has_checkpoint)
+        share_tasks(task);
       return task;
     };
     return analyse(make_task, options, study::without_reference(read_scene(options)));

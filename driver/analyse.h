@@ -26,13 +26,18 @@ namespace plumbline::driver
     /// Receives these earlier results, on the first rank.
     std::function<void(const study::StudyResults &earlier)> take_over = {};
     bool has_checkpoint = false;                            ///< see study::Checkpoints
-    base::Communicator ranks = base::Communicator::alone(); ///< that share the work
-    std::map<std::string, std::string> provenance = {};     ///< besides versions and machine
-    std::string note = {};                                  ///< for people, before it begins
+    base::Communicator ranks = base::Communicator::alone(); ///< that share each method's work
+    /// That share methods and levels instead, each of which one rank computes by itself.
+    base::Communicator task_ranks = base::Communicator::alone();
+    std::map<std::string, std::string> provenance = {}; ///< besides versions and machine
+    std::string note = {};                              ///< for people, before it begins
   };
 
   /// Makes a task that writes its checkpoints and other files of its own to the given folder.
   using MakeTask = std::function<Task(const study::Checkpoints &)>;
+
+  /// All ranks share the task's methods and levels, none of which is distributed in itself.
+  void share_tasks(Task &task);
 
   /// The methods that a scene names for an analysis, after all checks that come before the first
   /// record.
@@ -44,8 +49,8 @@ namespace plumbline::driver
   /// Run an analysis over the study of a scene, with --jobs by worker processes; print tables and
   /// verdicts; write ANALYSIS.html, .md and .json, charts to ANALYSIS/, and there the fields of
   /// each series' finest level as VTU. A command that was interrupted or killed takes over what it
-  /// had finished, from ANALYSIS.jsonl and checkpoint.h5. On several ranks only the task's first
-  /// rank prints and writes.
+  /// had finished, from ANALYSIS.jsonl and checkpoint.h5. On several ranks only the first
+  /// one prints, and writes all but what belongs to one method at one level.
   /// @return exit code: 0; with check 1 if an expectation does not hold; 3 if a record failed
   ///         where that is no finding, nor expected by the scene; 130 if it was interrupted; that
   ///         of a worker that ended badly, or 3

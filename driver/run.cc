@@ -83,8 +83,15 @@ namespace plumbline::driver
     /// @param points  outlive it
     Task statics_task(const scene::Scene &scene, const fs::path &folder, io::PointValues &points)
     {
-      // every rank runs the scene, and they share the work on meshes
-      const base::Communicator communicator = base::Communicator::all();
+      // ranks share each method's work where it can be distributed, else methods and levels
+      const base::Communicator all = base::Communicator::all();
+      const method::Methods methods =
+          all.n_ranks() > 1 ? study::choose_methods(scene, all_methods()) : method::Methods{};
+      // comparisons with the method's own finest level need all solutions
+      const bool goes_on = scene.study.decisive_error.target != scene::Target::finest,
+                 has_task_ranks =
+                     all.n_ranks() > 1 && goes_on && !study::is_any_distributed(scene, methods);
+      const base::Communicator communicator = has_task_ranks ? base::Communicator::alone() : all;
       Task task{study::statics_analysis(all_methods(),
                                         statics_options(scene, folder, communicator, points)),
                 report::statics_view};
@@ -94,18 +101,18 @@ namespace plumbline::driver
         task.take_over = [folder, &points](const study::StudyResults &earlier)
         { points.take_over(earlier, folder / "points"); };
       task.ranks = communicator;
-      // comparisons with the method's own finest level need all solutions
-      task.goes_on = scene.study.decisive_error.target != scene::Target::finest;
+      task.goes_on = goes_on;
       if (const auto spectrum = study::field_spectrum(scene.random))
         task.provenance["random field"] = words_of(*spectrum);
-      if (communicator.n_ranks() > 1)
+      if (has_task_ranks)
+        share_tasks(task);
+      else if (all.n_ranks() > 1)
       {
-        const method::Methods methods = study::choose_methods(scene, all_methods());
         const std::string work = study::work_of_ranks(scene, methods);
         if (!work.empty())
           task.provenance["work of ranks"] = work;
         if (work.find("repeated") == 0)
-          task.note = study::repetition(scene, methods, communicator.n_ranks());
+          task.note = study::repetition(scene, methods, all.n_ranks());
       }
       return task;
     }
@@ -193,14 +200,9 @@ namespace plumbline::driver
       const method::Methods repeated =
           scene.domain.is_in_space() ? study::repeated_by_ranks(scene, methods) : methods;
       const bool is_shared = repeated.size() < methods.size();
-      if (!is_shared && all.rank() != 0)
-      {
-        watch_interrupts(); // so that a signal does not end this rank; rank 0 handles it
-        return 0;           // it does the work
-      }
       const base::Communicator ranks = is_shared ? all : base::Communicator::alone();
       const fs::path folder = output_folder(options, scene);
-      base::on_first_rank(ranks, [&] { check_frames(scene, methods, folder); });
+      base::on_first_rank(all, [&] { check_frames(scene, methods, folder); });
       study::TransientOptions transient;
       transient.ranks = ranks;
       transient.on_frame = [folder, times = std::map<std::string, std::vector<double>>()](
@@ -214,9 +216,10 @@ namespace plumbline::driver
       Task task{study::transient_analysis(all_methods(), transient), report::dynamics_view, "run"};
       task.analysis.are_failures_findings = scene.time.shows_blow_up;
       task.ranks = ranks;
-      if (all.n_ranks() > 1)
-        task.provenance["work of ranks"] =
-            is_shared ? study::work_of_ranks(scene, methods) : study::work_of_first_rank;
+      if (!is_shared)
+        share_tasks(task);
+      else if (all.n_ranks() > 1)
+        task.provenance["work of ranks"] = study::work_of_ranks(scene, methods);
       if (is_shared && all.n_ranks() > 1 && !repeated.empty())
         task.note = study::repetition(scene, methods, all.n_ranks());
       return analyse([&](const study::Checkpoints &) { return task; }, options, scene);

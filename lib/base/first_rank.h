@@ -2,7 +2,9 @@
 
 #include "base/communicator.h"
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace plumbline::base
 {
@@ -15,5 +17,18 @@ namespace plumbline::base
           if (ranks.rank() == 0)
             action();
         });
+  }
+
+  /// The first rank's numbers, on all ranks. @note Collective.
+  inline std::vector<std::uint64_t> of_first_rank(const Communicator &ranks,
+                                                  std::vector<std::uint64_t> numbers)
+  {
+    if (ranks.n_ranks() == 1)
+      return numbers;
+    std::uint64_t n = numbers.size();
+    MPI_Bcast(&n, 1, MPI_UINT64_T, 0, ranks.mpi);
+    numbers.resize(n);
+    MPI_Bcast(numbers.data(), static_cast<int>(n), MPI_UINT64_T, 0, ranks.mpi);
+    return numbers;
   }
 } // namespace plumbline::base

@@ -55,7 +55,10 @@ namespace plumbline::study
       return {};
     try
     {
-      const Solution whole = analysis::solve(method, full);
+      // ranks do not share lattices, and may be at different methods
+      const auto ranks =
+          one.problem.lattice() ? base::Communicator::alone() : base::Communicator::all();
+      const Solution whole = analysis::solve(method, full, ranks);
       return Saving{method.name(), full.h,     full.horizon(),
                     solution.cost, whole.cost, difference(solution, whole, full.h)};
     }

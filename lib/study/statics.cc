@@ -74,10 +74,12 @@ namespace plumbline::study
             add(one.name + ": " + found->text());
       }
 
-      /// All cases by one discretisation; on several ranks, where all must fail alike, one by one.
+      /// All cases by one discretisation; where ranks share its work, and all must fail alike, one
+      /// by one.
       Records run(const Method &method) const
       {
-        const bool is_alone = base::Communicator::all().n_ranks() == 1;
+        const bool is_alone =
+            base::Communicator::all().n_ranks() == 1 || cases_.front().problem.lattice() != nullptr;
         std::vector<analysis::Outcome> solved;
         Records records;
         for (std::size_t i = 0; i < cases_.size(); ++i)

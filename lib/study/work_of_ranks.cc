@@ -27,11 +27,18 @@ namespace plumbline::study
     }
   } // namespace
 
+  bool is_any_distributed(const scene::Scene &scene, const method::Methods &methods)
+  {
+    const scene::DomainSection &domain = scene.domain;
+    if (domain.is_in_space())
+      return study::repeated_by_ranks(scene, methods).size() < methods.size();
+    return domain.is_free_body || !domain.mesh.is_lattice();
+  }
+
   std::string work_of_ranks(const scene::Scene &scene, const method::Methods &methods)
   {
     if (!scene.domain.is_in_space())
-      return repeats_work(scene, methods) ? "repeated by each: lattices are not shared among ranks"
-                                          : "";
+      return repeats_work(scene, methods) ? "repeated by each" : "";
     const method::Methods repeated = study::repeated_by_ranks(scene, methods);
     if (repeated.empty())
       return "distributed in slabs of cells along z";
@@ -50,9 +57,12 @@ namespace plumbline::study
                       "the domain is one box" +
                       (scene.time.is_dynamic() ? " and no error is estimated (Reference/estimate)"
                                                : "")
-            : scene.domain.dimension == 1
-                ? ", because one-dimensional problems are not distributed; use one rank"
-                : ", because problems on lattices in the plane are not distributed; use one rank, "
-                  "or write Domain/mesh = squares, which is distributed");
+            : scene.domain.is_free_body
+                ? ", because methods on bodies with a free boundary are not all distributed; use "
+                  "one "
+                  "rank"
+                : ", because each method is compared with its own finest level (Study/decisive "
+                  "error), for which one process keeps all solutions; use one rank, or choose "
+                  "another error");
   }
 } // namespace plumbline::study

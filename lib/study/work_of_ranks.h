@@ -7,6 +7,10 @@
 
 namespace plumbline::study
 {
+  /// Whether ranks share the work of some method, or of what it is compared with; else each method
+  /// is computed by one rank alone.
+  bool is_any_distributed(const scene::Scene &scene, const method::Methods &methods);
+
   /// What provenance says of the work of several ranks; empty: all of it is shared, as on meshes.
   std::string work_of_ranks(const scene::Scene &scene, const method::Methods &methods);
 
@@ -14,7 +18,7 @@ namespace plumbline::study
   std::string repetition(const scene::Scene &scene, const method::Methods &methods,
                          unsigned int n_ranks);
 
-  /// The same of a scene with a time whose work the first rank does while others have none.
-  inline const std::string work_of_first_rank =
-      "all by the first rank: transient analyses by these methods are not distributed";
+  /// What provenance says where ranks share methods and levels.
+  inline const std::string work_of_tasks =
+      "methods and levels are distributed: one rank computes each of them";
 } // namespace plumbline::study

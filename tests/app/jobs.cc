@@ -1,5 +1,5 @@
-// Worker processes (--jobs) share the work of `run` and other analyses: the same numbers, whatever
-// happens to the processes.
+// Worker processes (--jobs) and ranks share methods and levels of `run` and other analyses: the
+// same numbers, whatever happens to the processes.
 
 #include "command.h"
 
@@ -73,10 +73,10 @@ namespace
   }
 } // namespace
 
-TEST(Jobs, give_the_same_bits_as_one_process)
+TEST(Jobs, give_the_same_bits_as_one_process_by_workers_and_ranks)
 {
   const std::string scenes = std::string(PLUMBLINE_SCENES);
-  const fs::path one = temporary("one"), two = temporary("two");
+  const fs::path one = temporary("one"), two = temporary("two"), ranks = temporary("two_ranks");
   for (const auto &[command, file] :
        {std::pair{reference + "--methods FA,IPA-AC-R2,Q1", "results"},
         {reference + "--methods IPA-AC-R2,Q1 --set Reference/method=Q2 --set 'Study/decisive "
@@ -86,7 +86,11 @@ TEST(Jobs, give_the_same_bits_as_one_process)
         {"run " + scenes +
              "/line/delta_convergence.prm --threads 1 --quiet --levels 1 --methods FA,Q1 "
              "--set Expected/verdicts= --set Expected/errors=",
-         "results"}})
+         "results"},
+        {"stability " + scenes +
+             "/ipa_ac/scalar_delta_convergence.prm --quiet --levels 2 --methods FA,Q1 --set "
+             "Study/m=2",
+         "stability"}})
   {
     ASSERT_EQ(run(command + " -o " + one.string()).exit_code, 0) << command;
     const Outcome outcome = run(command + " --jobs 2 -o " + two.string());
@@ -94,15 +98,25 @@ TEST(Jobs, give_the_same_bits_as_one_process)
     EXPECT_EQ(without_progress(outcome.err), "") << command;
     const std::string name = std::string(file) + ".json";
     EXPECT_EQ(untimed(one / name), untimed(two / name)) << command;
-    EXPECT_FALSE(fs::exists(two / (std::string(file) + ".jsonl")));
-    if (fs::exists(one / "points"))
+    const Outcome of_ranks = run_on_two_ranks(command + " -o " + ranks.string());
+    EXPECT_EQ(of_ranks.exit_code, 0) << command << of_ranks.err;
+    EXPECT_EQ(of_ranks.err, "") << command;
+    EXPECT_EQ(of_ranks.out, "") << command;
+    EXPECT_EQ(untimed(one / name), untimed(ranks / name)) << command;
+    EXPECT_EQ(read_json(ranks / name)["provenance"]["work of ranks"],
+              "methods and levels are distributed: one rank computes each of them");
+    for (const fs::path &many : {two, ranks})
     {
-      for (const auto &points : fs::directory_iterator(one / "points"))
-        EXPECT_EQ(read(points.path()), read(two / "points" / points.path().filename()))
-            << points.path();
+      EXPECT_FALSE(fs::exists(many / (std::string(file) + ".jsonl")));
+      if (fs::exists(one / "points"))
+      {
+        for (const auto &points : fs::directory_iterator(one / "points"))
+          EXPECT_EQ(read(points.path()), read(many / "points" / points.path().filename()))
+              << points.path();
+      }
     }
-    fs::remove_all(one);
-    fs::remove_all(two);
+    for (const fs::path &folder : {one, two, ranks})
+      fs::remove_all(folder);
   }
 }
 

@@ -23,15 +23,28 @@ namespace
   }
 } // namespace
 
-TEST(Ranks, agree_on_a_budget_on_lattices_and_say_that_they_repeat_the_work)
+TEST(Ranks, share_methods_and_levels_on_lattices_within_a_budget)
 {
   const fs::path folder = temporary("ranks");
   const std::string scene = small_scene("lattice") + " --threads 1 -o " + folder.string();
-  // some solves take longer than the budget on one of the ranks and not on the other
   const Outcome outcome = run_on_two_ranks("run " + scene + " --budget 0.002");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, because "
-                               "problems on lattices in the plane are not distributed"),
+  EXPECT_EQ(outcome.err.find("note: "), std::string::npos) << outcome.err;
+  expect_found(read(folder / "results.json"),
+               "\"work of ranks\": \"methods and levels are distributed: one rank computes each");
+  fs::remove_all(folder);
+}
+
+TEST(Ranks, repeat_what_is_compared_with_own_finest_levels_and_say_so)
+{
+  const fs::path folder = temporary("ranks");
+  const Outcome outcome = run_on_two_ranks(
+      "run " + small_scene("lattice") +
+      " --set 'Study/decisive error=averages L2 | own finest level' --threads 1 -o " +
+      folder.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work, because each "
+                               "method is compared with its own finest level"),
             1u)
       << outcome.err;
   expect_found(read(folder / "results.json"), "\"work of ranks\": \"repeated by each");
@@ -49,8 +62,8 @@ TEST(Ranks, share_meshes_without_a_word)
   fs::remove_all(folder);
 }
 
-// Meshes in space: each rank repeats the work, alone and on two.
-TEST(Ranks, repeat_meshes_in_space_and_say_so)
+// Meshes in space are distributed in no other way.
+TEST(Ranks, share_methods_and_levels_on_meshes_in_space)
 {
   const fs::path folder = temporary("ranks");
   const std::string ball = std::string(PLUMBLINE_SCENES) +
@@ -62,7 +75,8 @@ TEST(Ranks, repeat_meshes_in_space_and_say_so)
   EXPECT_EQ(read(folder / "results.json").find("work of ranks"), std::string::npos);
   fs::remove_all(folder);
   EXPECT_EQ(run_on_two_ranks("run " + ball).exit_code, 0);
-  expect_found(read(folder / "results.json"), "\"work of ranks\": \"repeated by each: FA, P1");
+  expect_found(read(folder / "results.json"),
+               "\"work of ranks\": \"methods and levels are distributed");
   fs::remove_all(folder);
 }
 
@@ -146,7 +160,8 @@ TEST(Ranks, share_motions_in_space_and_say_which_methods_do_not)
                "\"work of ranks\": \"repeated by each: Q2; others distributed in slabs");
   fs::remove_all(folder);
   EXPECT_EQ(run_on_two_ranks("run " + cube + " --methods Q2").exit_code, 0);
-  expect_found(read(folder / "dynamics.json"), "\"work of ranks\": \"all by the first rank");
+  expect_found(read(folder / "dynamics.json"),
+               "\"work of ranks\": \"methods and levels are distributed");
   fs::remove_all(folder);
 }
 
