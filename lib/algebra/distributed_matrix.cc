@@ -262,6 +262,44 @@ namespace plumbline::algebra
       sum_ = sum_own_rows(rows, ranges);
     own_ = CsrView(is_sum ? rows : sum_, ranges.own_first, ranges.own_size);
     block_column_ = block_columns(own());
+    if (ranges.first.size() > 1)
+      import_columns();
+  }
+
+  /// Finds which values of x come from other ranks.
+  void DistributedMatrix::import_columns()
+  {
+    const std::size_t n = ranges_.size_of_all(), begin = ranges_.own_first,
+                      end = begin + ranges_.own_size;
+    std::vector<bool> is_imported(n, false);
+    for (const unsigned int column : own_.column)
+      is_imported[column] = column < begin || column >= end;
+    dealii::IndexSet imported(n);
+    for (std::size_t column = 0; column < n; ++column)
+      if (is_imported[column])
+        imported.add_index(column);
+    imported.compress();
+    columns_ = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+        ranges_.own(), imported, ranges_.communicator.mpi);
+    values_.reset(new double[n]); // pages that are not written take no memory
+  }
+
+  /// Indexed by columns, of which those of own rows have values.
+  const double *DistributedMatrix::values_at_columns(const Vector &x) const
+  {
+    if (!columns_)
+      return x.begin();
+    std::vector<double> imported(columns_->n_ghost_indices()), buffer(columns_->n_import_indices());
+    std::vector<MPI_Request> requests;
+    columns_->export_to_ghosted_array_start<double>(0, {x.begin(), ranges_.own_size},
+                                                    dealii::make_array_view(buffer),
+                                                    dealii::make_array_view(imported), requests);
+    std::copy_n(x.begin(), ranges_.own_size, values_.get() + ranges_.own_first);
+    columns_->export_to_ghosted_array_finish<double>(dealii::make_array_view(imported), requests);
+    auto value = imported.begin();
+    for (const auto column : columns_->ghost_indices())
+      values_[column] = *value++;
+    return values_.get();
   }
 
   /// Rows 2 first ... 2 last - 1.
@@ -279,16 +317,7 @@ namespace plumbline::algebra
 
   void DistributedMatrix::vmult(Vector &y, const Vector &x, std::size_t first_row) const
   {
-    const double *all = x.begin();
-    std::vector<double> gathered;
-    if (ranges_.first.size() > 1)
-    {
-      gathered.resize(x.size());
-      MPI_Allgatherv(x.begin(), static_cast<int>(ranges_.own_size), MPI_DOUBLE, gathered.data(),
-                     ranges_.size.data(), ranges_.first.data(), MPI_DOUBLE,
-                     ranges_.communicator.mpi);
-      all = gathered.data();
-    }
+    const double *const all = values_at_columns(x);
     const CsrView &rows = own();
     constexpr unsigned int grain = 128;
     const std::size_t begin = std::max(first_row, ranges_.own_first) - ranges_.own_first;

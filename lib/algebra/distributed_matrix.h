@@ -4,8 +4,11 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
+#include <deal.II/base/partitioner.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
 
 namespace plumbline::algebra
 {
@@ -66,7 +69,8 @@ namespace plumbline::algebra
     const CsrView &own() const { return own_; }
 
     /// y = A x, threads sharing the rows; the same on any number of them. Values of y before
-    /// first_row stay as they are. @note Collective.
+    /// first_row stay as they are. Ranks exchange the values of x that others have columns for.
+    /// @note Collective; one product at a time.
     void vmult(Vector &y, const Vector &x, std::size_t first_row = 0) const;
 
     /// max |A_ij - A_ji| / max |A_ij|; takes a copy of the rows. @note Collective.
@@ -75,6 +79,8 @@ namespace plumbline::algebra
     double largest_row_sum() const; ///< ‖A‖_∞. @note Collective.
 
   private:
+    void import_columns();
+    const double *values_at_columns(const Vector &x) const;
     void multiply_blocks(std::size_t first, std::size_t last, const double *x, double *y) const;
 
     const OwnedRanges &ranges_;
@@ -83,6 +89,10 @@ namespace plumbline::algebra
     /// Half the even columns of every second row, if all is blocks of 2 x 2: a quarter of the
     /// indices are read, and memory is what a product waits for. Else empty.
     std::vector<unsigned int> block_column_;
+    /// Of several ranks: own rows, and columns of own rows that are rows of others.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> columns_;
+    /// x at own rows and these columns, shape (n); elsewhere without values, and no memory is used.
+    std::unique_ptr<double[]> values_;
   };
 
   /// A copy of a square matrix.
