@@ -5,9 +5,11 @@
 // bond breaks, and adds short-range contact; ours is the linear force of small displacements and
 // bonds that do not break, which a lattice does by convolution or directly with one stencil.
 // Scattered nodes have the motion of a scene: forces, masses of cells of unequal volumes, update.
-// Not counted, on either side: what is done once, such as finding bonds. Run:
-// build/release/benchmarks/lammps [NODES_ALONG_AN_AXIS [STEPS]] Ends with 1 if the bonds are not as
-// many in both.
+// Not counted, on either side: what is done once, such as finding bonds.
+//
+// Run: build/release/benchmarks/lammps [NODES_ALONG_AN_AXIS [STEPS]]
+//
+// Ends with 1 if the numbers of bonds differ.
 
 #include "algebra/operator.h"
 #include "analysis/transient.h"

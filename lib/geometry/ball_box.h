@@ -4,7 +4,7 @@
 
 namespace plumbline::geometry
 {
-  /// Volume and centroid of ball ∩ box with faces across the axes, as intersect() of a polyhedron
+  /// Volume and centroid of ball ∩ box with faces normal to the axes, as intersect() of a polyhedron
   /// gives them and as accurately, in a fraction of the time: no topology but a box's, no memory.
   /// @param ball   radius > 0, finite [length]
   /// @param whole  what is known of the box
