@@ -150,20 +150,23 @@ namespace plumbline::driver
         return io::RecordJournal(journal_file(), subject()).earlier();
       }
 
-      /// What a rank does of the tasks: every n-th one.
+      /// What a rank does of the tasks: one of each n, in turn another one, because methods that
+      /// take longest come in the same order at each level.
       void do_own_tasks(const std::vector<std::uint64_t> &tasks, const method::Methods &methods,
                         const std::function<void(std::size_t n_begun)> &show)
       {
         const base::Communicator &ranks = task_.task_ranks;
-        std::size_t next = ranks.rank();
+        const std::size_t n = ranks.n_ranks();
+        std::size_t round = 0;
         do_tasks(methods,
                  [&](std::uint64_t &task)
                  {
+                   const std::size_t next = round * n + (ranks.rank() + round) % n;
                    show(std::min<std::size_t>(next, tasks.size()));
                    if (next >= tasks.size())
                      return false;
                    task = tasks[next];
-                   next += ranks.n_ranks();
+                   ++round;
                    return true;
                  });
         ranks.wait();
@@ -249,7 +252,16 @@ namespace plumbline::driver
     {
       for (auto tasks = base::of_first_rank(task.task_ranks, {}); !tasks.empty();
            tasks = base::of_first_rank(task.task_ranks, {}))
-        Work(task, options, scene, folder).do_own_tasks(tasks, methods, [](std::size_t) {});
+      {
+        Work work(task, options, scene, folder);
+        if (!fs::exists(work.journal_file()))
+          throw InputError(
+              "rank " + std::to_string(task.task_ranks.rank()) + " does not find '" +
+              work.journal_file().string() +
+              "', which the first rank writes; give a folder on a file system that all "
+              "ranks share (-o)");
+        work.do_own_tasks(tasks, methods, [](std::size_t) {});
+      }
     }
 
     void tell_warnings(const study::StudyResults &results)

@@ -41,8 +41,8 @@ namespace plumbline::report
           {"first advance", "load factor at which the crack starts to grow (event " +
                                 std::to_string(record.count("first advance event")) + ")"},
           {"peak load", "load factor of the peak reaction"},
-          {"peak reaction",
-           "of the grips, work-conjugate to the load factor [" + force_unit(record) + "]"},
+          {"peak reaction", "of grips and dead loads, work-conjugate to the load factor [" +
+                                force_unit(record) + "]"},
           {"advance", is_in_space
                           ? "growth of the crack front, mean over the layers of nodes along z "
                             "[length]"
@@ -123,7 +123,7 @@ namespace plumbline::report
       switch (end.value_or(problem::GrowthEnd::unknown))
       {
       case problem::GrowthEnd::parted:
-        return "until no bonds connect the grips";
+        return "until no bonds connect the grips, or what is loaded";
       case problem::GrowthEnd::unloaded:
         return "until the reaction has fallen to " + rounded(record["min reaction"]) +
                " of its peak (Fracture/min reaction)";

@@ -177,7 +177,7 @@ namespace plumbline::study
         continue;
       const std::string &quantity = expected.problem;
       const bool is_bound = !expected.verdict.empty();
-      std::vector<double> found;
+      std::vector<double> found, bounds;
       bool holds = true;
       for (const Record &record : results.records)
         if (record.key.method == expected.method && record.has(quantity) &&
@@ -185,16 +185,21 @@ namespace plumbline::study
              without_blanks(record.key.series) == without_blanks(expected.series)))
         {
           found.push_back(record[quantity]);
+          if (is_bound)
+            bounds.push_back(bound_of(expected, record));
           holds = holds &&
-                  (is_bound ? found.back() <= bound_of(expected, record)
+                  (is_bound ? std::isfinite(bound_of(expected, record)) &&
+                                  found.back() <= bound_of(expected, record)
                             : found.size() <= expected.values.size() &&
                                   std::abs(found.back() / expected.values[found.size() - 1] - 1) <=
                                       scene.expected.error_tolerance);
         }
-      results.expectations.push_back(
-          {expected.method + ", " + quantity, is_bound ? expected.verdict : join(expected.values),
-           found.empty() ? "no such method, quantity or series was run" : join(found),
-           holds && !found.empty()});
+      results.expectations.push_back({expected.method + ", " + quantity,
+                                      is_bound ? expected.verdict : join(expected.values),
+                                      found.empty() ? "no such method, quantity or series was run"
+                                      : bounds.empty() ? join(found)
+                                                       : join(found) + "; bounds: " + join(bounds),
+                                      holds && !found.empty()});
     }
   }
 } // namespace plumbline::study

@@ -27,6 +27,13 @@ namespace plumbline::meshfree
                                         problem::GrowthSolver solver, Refactor refactor)
       : network_(std::move(network)), stretch_(stretch), solver_(solver), refactor_(refactor)
   {
+    const auto is_zero = [](const Tensor<1, dim> &value) { return value.norm_square() == 0; };
+    const auto is_all_zero = [&](const std::vector<Tensor<1, dim>> &values)
+    { return std::all_of(values.begin(), values.end(), is_zero); };
+    is_pulled_by_loads_ = !network_.loads.empty() && is_all_zero(network_.constrained);
+    if (!network_.loads.empty() && is_all_zero(network_.loads))
+      throw InputError("Problem/load is 0 at all nodes that are free; let it act on a row of nodes "
+                       "outside of Domain/fixed, or clear it");
     factor();
     if (is_separated())
       throw InputError(
@@ -67,7 +74,7 @@ namespace plumbline::meshfree
   template <int dim>
   bool BreakingNetwork<dim>::is_separated() const
   {
-    return connections_->is_separated() || (!network_.loads.empty() && n_loaded() == 0);
+    return connections_->is_separated() || (is_pulled_by_loads_ && n_loaded() == 0);
   }
 
   template <int dim>

@@ -58,6 +58,7 @@ namespace plumbline::meshfree
     Release release(const std::vector<std::size_t> &bonds) const;
 
     BondNetwork<dim> network_;
+    bool is_pulled_by_loads_ = false; ///< alone, no grip moves
     problem::Stretch stretch_;
     problem::GrowthSolver solver_;
     Refactor refactor_;

@@ -69,8 +69,12 @@ namespace plumbline::scene
         if (kind == ExpectedKind::values && right.rfind("<=", 0) == 0)
         {
           right = trim(right.substr(2));
+          if (right.empty() || right == "nan" || right == "inf")
+            throw InputError("'" + text +
+                             "' has no bound after '<='; write a number, or the name of another "
+                             "quantity of the same record");
           expected.verdict = "<= " + right;
-          if (!right.empty() && right.find_first_of("0123456789.+-") != 0)
+          if (right.find_first_of("0123456789.+-") != 0)
             return expected; // another quantity
         }
         expected.values = to_numbers(right);
