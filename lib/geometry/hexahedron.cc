@@ -115,7 +115,7 @@ namespace plumbline::geometry
         missed < 1e-12) // NOLINT: Newton's method went to and fro between rounded numbers
       return s;
     std::ostringstream message;
-    message << "(" << x << ") has no coordinates in a hexahedron of the mesh; give cells that are "
+    message << "(" << x << ") has no reference coordinates in any hexahedron; give cells that are "
             << "less distorted";
     throw NumericalError(message.str());
   }
@@ -173,7 +173,7 @@ namespace plumbline::geometry
         continue;
       std::ostringstream message;
       message << "hexahedron " << k << " at (" << hexahedron.at(Point<3>(.5, .5, .5))
-              << ") is degenerate, inverted in a part, or not convex: the determinant of its "
+              << ") is degenerate, inverted in parts, or not convex: the determinant of its "
                  "trilinear map or of a tetrahedron in it may be as small as "
               << least << "; move its vertices, or refine the mesh";
       throw InputError(message.str());

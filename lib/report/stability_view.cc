@@ -179,7 +179,7 @@ namespace plumbline::report
             columns.push_back(
                 number_column(name.substr(std::string(study::spectral_radius_of).size()), name));
       return {"spectral-radii", "Growth in one time step on the largest strain",
-              "Of the wave that grows fastest, at the largest X of the samples: its rate by the "
+              "For the fastest-growing wave at the largest X of the samples: its rate from the "
               "rule's own tangent, its growth exp(rate dt) in one step, and the spectral radius of "
               "one step of each of Time/schemes, with the longest of Time/steps or Time/critical "
               "fractions. Of implicit Euler it is (65) of Jha & Lipton 2018, "

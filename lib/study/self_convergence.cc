@@ -64,8 +64,8 @@ namespace plumbline::study
         if (!(shared[i / n_components] > 0))
         {
           std::ostringstream message;
-          message << "cells of the finest level meet nothing of a coarser level's cell "
-                  << i / n_components << ", so it cannot be held against them; let all levels fill "
+          message << "cells of the finest level do not overlap a coarser level's cell "
+                  << i / n_components << ", so the two cannot be compared; let all levels fill "
                   << "the same domain (Domain/mesh, Methods/nodes)";
           throw NumericalError(message.str());
         }

@@ -37,7 +37,7 @@ namespace plumbline::meshfree
     factor();
     if (is_separated())
       throw InputError(
-          "Domain/fixed: no path of bonds joins the grips, or what is loaded; let the notch "
+          "Domain/fixed: no path of bonds joins the grips or the loaded nodes; let the notch "
           "(Domain/cracks) end in the body, or mend Domain/boxes");
   }
 

@@ -118,7 +118,7 @@ namespace plumbline::reference
             throw NumericalError(
                 "quadrature over pairs of hexahedra, refinement " + std::to_string(refinement) +
                 ", changes the solution by " + base::to_text(change, 2) +
-                " relative to it, more than Quadrature/tolerance = " + base::to_text(tolerance, 2) +
+                " (relative), more than Quadrature/tolerance = " + base::to_text(tolerance, 2) +
                 "; raise Quadrature/max refinements or the tolerance, or refine the mesh");
           Vector finer = solve(++refinement);
           u -= finer;
@@ -136,9 +136,9 @@ namespace plumbline::reference
             " points where they touch or the horizon cuts them and of " + points(rule.n_smooth) +
             " elsewhere; " +
             (tolerance > 0 ? "the last refinement changes the solution by " +
-                                 base::to_text(change, 1) + " relative to it"
+                                 base::to_text(change, 1) + " (relative)"
                            : "their error is not known (Quadrature/tolerance = 0)") +
-            " (no error for linear fields, nor in the local limit)");
+            " (exact for linear fields and in the local limit)");
       }
 
       /// Of a mesh whose shapes differ the rows that are sampled are those about the thinnest

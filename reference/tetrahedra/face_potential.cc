@@ -112,10 +112,10 @@ namespace plumbline::reference
       return "entries on tetrahedra and hexahedra are for scalar kernels, not for bond tensors" +
              remedy;
     if (kernel.profile().lowest_exponent() < lowest_exponent)
-      return "entries on tetrahedra and hexahedra are for kernels like 1/r or less at 0" + remedy;
+      return "entries on tetrahedra and hexahedra are for kernels of at most 1/r at 0" + remedy;
     if (is_series(kernel.profile()))
       if (const double error = ProfileSeries(kernel.profile()).error; !(error < most_of_series))
-        return "the kernel's radial profile is no series of 128 terms to more than " +
+        return "128 Chebyshev terms approximate the radial profile only to " +
                base::to_text(error, 1) + " of the kernel's integral; give fewer coefficients";
     return "";
   }
@@ -126,7 +126,7 @@ namespace plumbline::reference
       return {};
     const ProfileSeries series(kernel.profile());
     return "; a Chebyshev series of " + std::to_string(series.coefficients.size()) +
-           " terms stands for the radial profile, to " + base::to_text(series.error, 1) +
+           " terms approximates the radial profile, to " + base::to_text(series.error, 1) +
            " of the kernel's integral";
   }
 
