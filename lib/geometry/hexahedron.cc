@@ -101,17 +101,23 @@ namespace plumbline::geometry
   {
     constexpr unsigned int most_steps = 50;
     constexpr double accuracy = 1e-14, far = 10; // of the unit cube
+    std::array<Point<3>, n_corners> local; // about the first corner: far away, digits are lost
+    for (unsigned int k = 0; k < n_corners; ++k)
+      local[k] = Point<3>(corners_[k] - corners_[0]);
+    const Hexahedron near_origin(local);
+    const Point<3> target(x - corners_[0]);
     Point<3> s(.5, .5, .5);
     for (unsigned int step = 0; step < most_steps; ++step)
     {
-      const Tensor<1, 3> change = invert(jacobian(s)) * (x - at(s));
+      const Tensor<1, 3> change = invert(jacobian(s)) * (target - near_origin.at(s));
       s += change;
       if (change.norm() < accuracy)
         return s;
       if (!(s.norm() < far))
         break;
     }
-    if (const double missed = x.distance(at(s)) / corners_[0].distance(corners_[n_corners - 1]);
+    if (const double missed =
+            target.distance(near_origin.at(s)) / corners_[0].distance(corners_[n_corners - 1]);
         missed < 1e-12) // NOLINT: Newton's method went to and fro between rounded numbers
       return s;
     std::ostringstream message;
@@ -173,8 +179,8 @@ namespace plumbline::geometry
         continue;
       std::ostringstream message;
       message << "hexahedron " << k << " at (" << hexahedron.at(Point<3>(.5, .5, .5))
-              << ") is degenerate, inverted in parts, or not convex: the determinant of its "
-                 "trilinear map or of a tetrahedron in it may be as small as "
+              << ") is degenerate, or so distorted that it may be inverted in parts: the "
+                 "determinant of its trilinear map or of a tetrahedron in it may be as small as "
               << least << "; move its vertices, or refine the mesh";
       throw InputError(message.str());
     }

@@ -48,7 +48,8 @@ namespace plumbline::geometry
   TetrahedralMesh six_per_hexahedron(std::vector<dealii::Point<3>> vertices, Hexahedra hexahedra,
                                      const std::vector<char> &is_inside);
 
-  /// @throws InputError  a hexahedron that is inverted, degenerate, or not convex, naming its place
+  /// @throws InputError  a hexahedron that is degenerate or may be inverted in parts, naming its
+  /// place
   void check_hexahedra(const TetrahedralMesh &mesh);
 
   /// Every hexahedron cut into eight by the middles of its edges and faces, the images of those of

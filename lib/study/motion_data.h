@@ -29,8 +29,8 @@ namespace plumbline::study
 
     const problem::Problem<dim> &at(double t);
 
-    /// Those of another mesh size at the same horizon, for Galerkin methods that move: in space they
-    /// stand on the lattice.
+    /// Those of another mesh size at the same horizon, for Galerkin methods that move: in space
+    /// they stand on the lattice.
     ProblemsInTime resized(double h) const
     {
       scene::Scene scene = scene_;

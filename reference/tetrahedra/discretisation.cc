@@ -114,6 +114,10 @@ namespace plumbline::reference
         unsigned int refinement = 0;
         while (tolerance > 0 && change > tolerance)
         {
+          if (refinement == most && refinement == 0)
+            throw NumericalError("quadrature over pairs of hexahedra is not refined, so it is not "
+                                 "known by how much that changes the solution; raise "
+                                 "Quadrature/max refinements, or write Quadrature/tolerance = 0");
           if (refinement == most)
             throw NumericalError(
                 "quadrature over pairs of hexahedra, refinement " + std::to_string(refinement) +
@@ -138,7 +142,7 @@ namespace plumbline::reference
             (tolerance > 0 ? "the last refinement changes the solution by " +
                                  base::to_text(change, 1) + " (relative)"
                            : "their error is not known (Quadrature/tolerance = 0)") +
-            " (exact for linear fields and in the local limit)");
+            " (no error for linear fields)" + FacePotential::note(problem.kernel));
       }
 
       /// Of a mesh whose shapes differ the rows that are sampled are those about the thinnest
@@ -241,8 +245,11 @@ namespace plumbline::reference
                          : " and differ from quadrature by ") +
               base::to_text(change, 1) + open_pairs(use) + ": tetrahedra are too thin; " +
               (problem.make_tetrahedra ? "choose a smaller Methods/perturbation"
-                                       : "give a mesh without thin tetrahedra "
-                                         "(Mesh.OptimizeThreshold of gmsh)"));
+               : !problem.mesh || problem.mesh->hexahedra.empty()
+                   ? "give a mesh without thin tetrahedra "
+                     "(Mesh.OptimizeThreshold of gmsh)"
+                   : "give hexahedra that are less distorted, or take "
+                     "Q1"));
         note(use, change, has_jumps);
         diagnostics_.notes.back() += FacePotential::note(problem.kernel);
         return matrix;
@@ -309,10 +316,12 @@ namespace plumbline::reference
   double expected_bytes_on_tetrahedra(const method::ProblemSize &size, TetrahedralShapes shapes)
   {
     // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
-    // what all faces keep, and rows of faces that are assembled at a time; all measured
+    // what all faces keep, and rows of faces that are assembled at a time; measured, but for
+    // trilinear functions, where they are counted
     const bool has_jumps = !shapes.is_continuous && shapes.degree > 0 && !shapes.is_on_hexahedra;
     const double of_lattice_entry = has_jumps ? 30 : 20,
-                 of_entry = size.is_scattered ? 50 : of_lattice_entry,
+                 of_scattered_entry = shapes.is_trilinear() ? 75 : 50,
+                 of_entry = size.is_scattered ? of_scattered_entry : of_lattice_entry,
                  of_cell = size.is_scattered && !shapes.is_trilinear() ? 1000 : 100,
                  of_pair = has_jumps ? 350 : 220; // of a lattice, known once
     const double reach = size.reach() / size.level.h,
@@ -323,7 +332,11 @@ namespace plumbline::reference
                  n_cubes = size.extents[0] * size.extents[1] * size.depth,
                  n_all = (size.extents[0] + 2 * reach) * (size.extents[1] + 2 * reach) *
                          (size.depth + 2 * reach),
-                 n_columns = 4 * M_PI / 3 * std::pow(reach + wider, 3) * n_types;
+                 n_near = 4 * M_PI / 3 * std::pow(reach + wider, 3) * n_types,
+                 // of trilinear functions: all vertices of cells whose boxes are within the horizon
+        n_columns = shapes.is_trilinear() ? 1.4 * (64 + 96 * reach + 12 * M_PI * reach * reach +
+                                                   4 * M_PI / 3 * reach * reach * reach)
+                                          : n_near;
     // 12 faces per vertex, with half of those around them
     const double n_pairs = 72 * 4 * M_PI / 3 * std::pow(reach + 1, 3);
     // with jumps, two cells' blocks of 136 bytes by half of the cells about a face, in vectors that

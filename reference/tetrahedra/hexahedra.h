@@ -10,7 +10,7 @@ namespace plumbline::reference
   struct HexahedralRule
   {
     explicit HexahedralRule(unsigned int refinement)
-        : n_smooth(3 + refinement / 2), n_cut(4 + 2 * refinement)
+        : n_smooth(3 + refinement), n_cut(4 + 2 * refinement)
     {
     }
 
@@ -26,8 +26,8 @@ namespace plumbline::reference
   /// since -ΔΛ = m₀ δ - γ, so that ½∬γ ... = ∬Λ ∇φ_i(x)·∇φ_j(y), and ∫Λ = κ. The second integral
   /// is by Gauss rules. Whatever the rule, the matrix is symmetric to the last bit, constants and
   /// linear fields are annihilated to round-off (their gradients are equal in all points, and that
-  /// of φ_i integrates to 0), and the local limit is exact, since the second integral vanishes with
-  /// the horizon.
+  /// of φ_i integrates to 0). The second integral vanishes with the horizon, so that in the local
+  /// limit the rule only integrates κ ∫∇φ_i·∇φ_j, which it does exactly on parallelepipeds.
   /// @pre  rows of unknowns whose supports are a horizon or more from the outside of the mesh; a
   /// kernel that FacePotential takes
   algebra::CsrMatrix assemble_on_hexahedra(const TetrahedralSpace &space,

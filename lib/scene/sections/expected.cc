@@ -69,7 +69,7 @@ namespace plumbline::scene
         if (kind == ExpectedKind::values && right.rfind("<=", 0) == 0)
         {
           right = trim(right.substr(2));
-          if (right.empty() || right == "nan" || right == "inf")
+          if (right.empty())
             throw InputError("'" + text +
                              "' has no bound after '<='; write a number, or the name of another "
                              "quantity of the same record");
