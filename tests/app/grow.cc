@@ -429,7 +429,8 @@ TEST(GrowCommand, refuses_what_cannot_grow)
   expect_refused(set("Domain/boundary=constrained"), "Domain/boundary = free");
   expect_refused(set("Problem/constraint=solution"), "the displacement of the grips at load 1");
   expect_refused(set("Problem/load=a: 1, 0; b: 0, 1"), "no more than one load");
-  expect_refused(set("Problem/load=1"), "Problem/load of 2 components");
+  expect_refused(set("Problem/load=1"),
+                 "Problem/load = '1' has 1 component(s), but the solid needs 2");
   expect_refused(set("Problem/load=1, 0") + " --set Fracture/solver=multigrid",
                  "because Problem/load is given");
   expect_refused(set("Material/nu=0.6"), "nu");
