@@ -97,7 +97,8 @@ TEST_F(HexahedraFile, that_cannot_be_used_are_refused)
   // a corner pushed through the cube, into a plane, and a face bent inwards
   expect_fault(msh(with("7 1 1 1\n", "7 .2 .2 .2\n"), upper + lower), "hexahedron 0 at (");
   expect_fault(msh(with("7 1 1 1\n", "7 .2 .2 .2\n"), upper + lower), "may be inverted in parts");
-  expect_fault(msh(with("8 0 1 1\n", "8 0 0 1\n"), upper + lower), "is degenerate, or so distorted");
+  expect_fault(msh(with("8 0 1 1\n", "8 0 0 1\n"), upper + lower),
+               "is degenerate, or so distorted");
   expect_fault(msh(nodes, "1 5 2 1 1 1 2 4 3 5 6 7 8\n" + lower), "hexahedron 0 at (");
   expect_fault(msh(nodes + "13 .5 .5 2\n", upper + lower + "3 4 2 1 1 5 6 7 13\n"),
                "has 1 tetrahedra and 2 hexahedra; give cells of one kind");
