@@ -1,6 +1,7 @@
 #include "geometry/ball_box.h"
 
 #include "geometry/ball_polyhedron_boundary.h"
+#include "geometry/even_rule.h"
 
 #include <algorithm>
 #include <array>
@@ -257,31 +258,6 @@ namespace plumbline::geometry
       Vector first;
     };
 
-    /// Abscissae in (0, 1) and weights of Gauss's rules over [-1, 1], which are even in t.
-    struct EvenRule
-    {
-      unsigned int n;
-      std::array<double, 5> t, weight;
-    };
-
-    constexpr EvenRule six = {3,
-                              {.238619186083196908630501721681, .661209386466264513661399595020,
-                               .932469514203152027812301554494},
-                              {.467913934572691047389870343990, .360761573048138607569833513838,
-                               .171324492379170345040296142173}};
-    constexpr EvenRule eight = {4,
-                                {.183434642495649804939476142360, .525532409916328985817739049189,
-                                 .796666477413626739591553936476, .960289856497536231683560868569},
-                                {.362683783378361982965150449277, .313706645877887287337962201987,
-                                 .222381034453374470544355994426, .101228536290376259152531354310}};
-    constexpr EvenRule ten = {5,
-                              {.148874338981631210884826001130, .433395394129247190799265943166,
-                               .679409568299024406234327365115, .865063366688984510732096688423,
-                               .973906528517171720077964012084},
-                              {.295524224714752870173892994651, .269266719309996355091226921569,
-                               .219086362515982043995534934228, .149451349150580593145776339658,
-                               .0666713443086881375935688098933}};
-
     /// What t and -t of a rule give, side by side in a register.
     using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
@@ -362,7 +338,9 @@ namespace plumbline::geometry
                      most = sine / (1 + std::sqrt(1 - sine * sine)), // tan β/2
             scale = .5 * length * (1 + most * most), bulge = .5 * length * most, p = pole_[face.k],
                      p1 = pole_[(face.k + 1) % 3], p2 = pole_[(face.k + 2) % 3], at = face.at;
-        const EvenRule &rule = most < .04 ? six : most < .1 ? eight : ten;
+        const EvenRule &rule = most < .04  ? even_rules::six
+                               : most < .1 ? even_rules::eight
+                                           : even_rules::ten;
         Pair area{}, x{}, y{}, xx{}, xy{}, yy{}, patch{}, patch_along{};
         for (unsigned int i = 0; i < rule.n; ++i)
         {

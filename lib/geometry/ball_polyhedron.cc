@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "geometry/ball_box.h"
 #include "geometry/ball_polyhedron_boundary.h"
+#include "geometry/even_rule.h"
 
 #include <algorithm>
 #include <array>
@@ -40,29 +41,6 @@ namespace plumbline::geometry
       Vector first;
       Matrix second;
     };
-
-    /// Abscissae in (0, 1) and weights of Gauss's rules that are even in t, over [-1, 1].
-    struct EvenRule
-    {
-      unsigned int n;
-      std::array<double, 7> t, weight;
-    };
-
-    // positive nodes of the rules with 6 and 14 points
-    constexpr EvenRule three = {3,
-                                {.238619186083196908630501721681, .661209386466264513661399595020,
-                                 .932469514203152027812301554494},
-                                {.467913934572691047389870343990, .360761573048138607569833513838,
-                                 .171324492379170345040296142173}};
-    constexpr EvenRule seven = {7,
-                                {.108054948707343662066244650220, .319112368927889760435671824168,
-                                 .515248636358154091965290718551, .687292904811685470148019803019,
-                                 .827201315069764993189794742650, .928434883663573517336391139378,
-                                 .986283808696812338841597266704},
-                                {.215263853463157790195876443316, .205198463721295603965924065661,
-                                 .185538397477937813741716590125, .157203167158193534569601938624,
-                                 .121518570687903184689414809072, .080158087159760209805633277063,
-                                 .035119460331751863031832876138}};
 
     /// The part of the sphere inside the cell, seen from a pole outside of the ball's inner half:
     /// ∫ q(r) r·n over it becomes an integral along its boundary. A point of the sphere has the
@@ -113,7 +91,7 @@ namespace plumbline::geometry
       std::array<double, 2> antiderivatives(double v, unsigned int degree) const
       {
         constexpr double small = .01; // three points leave 1e-17 there
-        const EvenRule &rule = v < small ? three : seven;
+        const EvenRule &rule = v < small ? even_rules::six : even_rules::fourteen;
         std::array<double, 2> h{};
         for (unsigned int k = 0; k < rule.n; ++k)
         {

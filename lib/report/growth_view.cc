@@ -29,6 +29,13 @@ namespace plumbline::report
       return study::is_in_space(record) ? "force length" : "force";
     }
 
+    /// Alone, or besides grips: then what is conjugate to the load factor grows as the body gives
+    /// way.
+    bool is_pulled_by_loads(const Record &record)
+    {
+      return record.text("pulled by") == "dead loads";
+    }
+
     std::vector<std::pair<std::string, std::string>> meanings(const Record &record)
     {
       const bool has_factor = record.text("solver") != base::word(problem::GrowthSolver::multigrid),
@@ -123,7 +130,8 @@ namespace plumbline::report
       switch (end.value_or(problem::GrowthEnd::unknown))
       {
       case problem::GrowthEnd::parted:
-        return "until no bonds connect the grips, or what is loaded";
+        return is_pulled_by_loads(record) ? "until no bonds connect what is loaded with the grips"
+                                          : "until no bonds connect the grips";
       case problem::GrowthEnd::unloaded:
         return "until the reaction has fallen to " + rounded(record["min reaction"]) +
                " of its peak (Fracture/min reaction)";
@@ -148,13 +156,23 @@ namespace plumbline::report
              " and advances by " + rounded(record["advance"]) + " [length]";
     }
 
+    std::string peak_words(const Record &record)
+    {
+      if (is_pulled_by_loads(record))
+      {
+        const std::vector<double> loads = column(record.curves.at("events"), "load");
+        return "; the largest load is " + rounded(*std::max_element(loads.begin(), loads.end()));
+      }
+      return "; the peak reaction, " + rounded(record["peak reaction"]) + " [" +
+             force_unit(record) + "], is at load " + rounded(record["peak load"]);
+    }
+
     std::string verdict(const Record &record)
     {
       std::string text;
       const bool is_broken = record.count("events") > 0;
       if (is_broken)
-        text = growth_words(record) + "; the peak reaction, " + rounded(record["peak reaction"]) +
-               " [" + force_unit(record) + "], is at load " + rounded(record["peak load"]) + ". " +
+        text = growth_words(record) + peak_words(record) + ". " +
                counted(record.count("broken bonds"), "bond") +
                (record.count("broken bonds") == 1 ? " breaks at " : " break at ") +
                counted(record.count("events"), "event") + ", from load " +
@@ -168,10 +186,12 @@ namespace plumbline::report
                 " elsewhere, not connected to " +
                 (record.has("nucleus x") ? "the crack" : "the notch");
       if (is_broken)
-        text += ". At the end " +
-                std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +
-                " connect the grips, and the reaction is " + rounded(record["reaction left"]) +
-                " of its peak";
+        text +=
+            ". At the end " +
+            std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +
+            (is_pulled_by_loads(record) ? " connect what is loaded with the grips"
+                                        : " connect the grips, and the reaction is " +
+                                              rounded(record["reaction left"]) + " of its peak");
       return text + ".";
     }
 
@@ -233,9 +253,13 @@ namespace plumbline::report
       DataChart chart =
           linear_chart("load", "Reaction versus load", "load factor [1]",
                        "reaction [" + force_unit(record) + "]",
-                       "Solid: monotonically increasing load; each event lowers the reaction at "
-                       "constant load. Dashed: the equilibria at which each event begins, the path "
-                       "under crack-controlled loading.");
+                       std::string("Solid: monotonically increasing load; each event ") +
+                           (is_pulled_by_loads(record)
+                                ? "moves the dead loads on at constant load, which raises their "
+                                  "displacement, the reaction here"
+                                : "lowers the reaction at constant load") +
+                           ". Dashed: the equilibria at which each event begins, the path "
+                           "under crack-controlled loading.");
       std::vector<Vertex> path = {{0, 0}}, critical = {{0, 0}};
       chart.data =
           data_of(events, {"event", "load", "reaction before", "reaction", "critical load"});

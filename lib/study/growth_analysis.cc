@@ -575,6 +575,7 @@ namespace plumbline::study
       analysis::Growth growth =
           run_growth(*model.body, {scene.fracture, "plumbline grow\n" + scene.text, checkpoints});
       record.cost.solve_seconds = timer.seconds();
+      record.texts["pulled by"] = scene.problem.loads.empty() ? "grips" : "dead loads";
       set_work(model.body->work(), record);
       if constexpr (dim == 2)
         if (const auto nucleus = find_nucleus(model, growth.events);

@@ -94,22 +94,39 @@ namespace plumbline::reference
         constrained_ = std::move(rows.constrained);
       }
 
+      /// Of values at nodes, each with the volume of its cells, in L2.
+      static double relative_change(const method::FieldInSpace &before,
+                                    const method::FieldInSpace &after)
+      {
+        double change = 0, size = 0;
+        for (std::size_t i = 0; i < after.nodal.size(); ++i)
+        {
+          const double volume = after.volumes.empty() ? 1 : after.volumes[i],
+                       difference = after.nodal[i] - before.nodal[i];
+          change += volume * difference * difference;
+          size += volume * after.nodal[i] * after.nodal[i];
+        }
+        return std::sqrt(change / std::max(size, std::numeric_limits<double>::min()));
+      }
+
       /// Rows on hexahedra by quadrature, which is refined until the solution settles.
       void settle_quadrature(const problem::Problem<3> &problem)
       {
         const auto &[is_exact, tolerance, most] = problem.settings.quadrature;
-        const auto solve = [&](unsigned int refinement)
+        const auto solve = [&](unsigned int refinement) -> method::FieldInSpace
         {
           set_rows(assemble_on_hexahedra(*space_, problem.kernel, n_unknowns(),
                                          HexahedralRule(refinement)));
+          if (tolerance <= 0)
+            return {};
+          const Data given = data(problem);
           Vector u(static_cast<unsigned int>(n_unknowns()));
-          if (tolerance > 0)
-            tangent()->solve(
-                u, data(problem).load,
-                {problem.settings.solver.tolerance, problem.settings.solver.max_iterations});
-          return u;
+          tangent()->solve(
+              u, given.load,
+              {problem.settings.solver.tolerance, problem.settings.solver.max_iterations});
+          return given.field(u);
         };
-        Vector u = solve(0);
+        method::FieldInSpace u = solve(0);
         double change = std::numeric_limits<double>::infinity();
         unsigned int refinement = 0;
         while (tolerance > 0 && change > tolerance)
@@ -124,10 +141,9 @@ namespace plumbline::reference
                 ", changes the solution by " + base::to_text(change, 2) +
                 " (relative), more than Quadrature/tolerance = " + base::to_text(tolerance, 2) +
                 "; raise Quadrature/max refinements or the tolerance, or refine the mesh");
-          Vector finer = solve(++refinement);
-          u -= finer;
-          change = u.l2_norm() / std::max(finer.l2_norm(), std::numeric_limits<double>::min());
-          u.swap(finer);
+          method::FieldInSpace finer = solve(++refinement);
+          change = relative_change(u, finer);
+          u = std::move(finer);
         }
         diagnostics_.n_refinements = refinement;
         diagnostics_.is_outer_error_known = tolerance > 0;

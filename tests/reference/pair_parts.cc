@@ -230,15 +230,30 @@ TEST(ParallelEdges, become_so_to_all_digits)
   EXPECT_FALSE(align(quad_face(x, {0, 1, 2}), g));
 }
 
+namespace
+{
+  struct NumberedFaces
+  {
+    std::vector<NumberedFace> all;
+    std::vector<const NumberedFace *> others; ///< the same ones
+
+    explicit NumberedFaces(const std::vector<PairFace> &faces)
+    {
+      for (std::size_t k = 0; k < faces.size(); ++k)
+        all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
+      for (const NumberedFace &face : all)
+        others.push_back(&face);
+    }
+    NumberedFaces(const NumberedFaces &) = delete;
+    NumberedFaces &operator=(const NumberedFaces &) = delete;
+  };
+} // namespace
+
 TEST(ManyPairs, are_those_with_all_digits_up_to_their_bounds)
 {
   const std::vector<PairFace> faces = some_faces(30);
-  std::vector<NumberedFace> all;
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
-  std::vector<const NumberedFace *> others;
-  for (const NumberedFace &face : all)
-    others.push_back(&face);
+  const NumberedFaces numbers(faces);
+  const auto &[all, others] = numbers;
   constexpr double tolerance = 1e-17;
   for (const std::string type : {"constant", "1/r"})
     for (const Kind kind : {Kind::biharmonic, Kind::harmonic})
@@ -331,12 +346,8 @@ TEST(FacePotentials, of_high_powers_are_those_of_a_series)
 TEST(ManyPairs, of_a_series_are_those_of_powers_and_those_with_all_digits)
 {
   const std::vector<PairFace> faces = some_faces(25);
-  std::vector<NumberedFace> all;
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    all.push_back(numbered(faces[k], static_cast<unsigned int>(k)));
-  std::vector<const NumberedFace *> others;
-  for (const NumberedFace &face : all)
-    others.push_back(&face);
+  const NumberedFaces numbers(faces);
+  const auto &[all, others] = numbers;
   using physics::RadialProfile;
   const auto one = RadialProfile::smooth([](double) { return 1; }, true);
   const auto quartic = RadialProfile::smooth([](double t) { return std::pow(1 - t, 4); }, false);

@@ -7,6 +7,7 @@
 #include "tests/study/operators.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,6 +22,20 @@ namespace plumbline::study::in_space
   {
     settings.insert(settings.end(), more.begin(), more.end());
     return settings;
+  }
+
+  /// The last of one key holds.
+  inline Settings last_of_each(const Settings &settings)
+  {
+    Settings last;
+    for (const auto &one : settings)
+    {
+      last.erase(std::remove_if(last.begin(), last.end(),
+                                [&](const auto &other) { return other.key == one.key; }),
+                 last.end());
+      last.push_back(one);
+    }
+    return last;
   }
 
   inline scene::Scene make_scene(Settings settings)
@@ -40,16 +55,7 @@ namespace plumbline::study::in_space
                                             {"Study/decisive error", "nodal Linf | exact"}})
       if (!is_given(key))
         settings.push_back({key, value});
-    // the last of one key holds
-    Settings last;
-    for (const auto &one : settings)
-    {
-      last.erase(std::remove_if(last.begin(), last.end(),
-                                [&](const auto &other) { return other.key == one.key; }),
-                 last.end());
-      last.push_back(one);
-    }
-    return scene::parse_scene("space.prm", "", last);
+    return scene::parse_scene("space.prm", "", last_of_each(settings));
   }
 
   inline Methods available()
@@ -71,6 +77,22 @@ namespace plumbline::study::in_space
     try
     {
       (void)choose_methods(make_scene(settings), available());
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// What refuses a scene as it is made, its methods, or its data.
+  inline std::string refusal_of(const std::function<scene::Scene()> &make)
+  {
+    try
+    {
+      const scene::Scene scene = make();
+      (void)choose_methods(scene, available());
+      check_data(scene);
     }
     catch (const InputError &error)
     {

@@ -53,26 +53,12 @@ namespace
                       [](const auto &one) { return one.key == "Study/horizon"; }))
         settings.erase(std::find_if(settings.begin(), settings.end(),
                                     [](const auto &one) { return one.key == "Study/m"; }));
-      for (const auto &one : more)
-        settings.erase(std::remove_if(settings.begin(), settings.end(),
-                                      [&](const auto &other) { return other.key == one.key; }),
-                       settings.end());
-      return scene::parse_scene("body.prm", "", with(settings, more));
+      return scene::parse_scene("body.prm", "", in_space::last_of_each(with(settings, more)));
     }
 
     std::string message_of(const Settings &settings) const
     {
-      try
-      {
-        const scene::Scene scene = make(settings);
-        (void)choose_methods(scene, available());
-        check_data(scene);
-      }
-      catch (const InputError &error)
-      {
-        return error.what();
-      }
-      return "";
+      return in_space::refusal_of([&] { return make(settings); });
     }
 
     void expect_refused(const Settings &settings, const std::string &words) const
