@@ -7,8 +7,8 @@ namespace plumbline::geometry
   /// Gauss's rule over [-1, 1] with an even number of points, by those in (0, 1).
   struct EvenRule
   {
-    unsigned int n; ///< points in (0, 1)
-    std::array<double, 7> t, weight;
+    unsigned int n = 0; ///< points in (0, 1)
+    std::array<double, 7> t{}, weight{};
   };
 
   namespace even_rules
