@@ -613,6 +613,14 @@ namespace plumbline::app
       }
       return exit_code;
     }
+
+    /// By mpirun or a batch system's launcher, perhaps as one of several ranks.
+    bool is_launched()
+    {
+      const auto names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+      return std::any_of(names.begin(), names.end(),
+                         [](const char *name) { return getenv(name) != nullptr; });
+    }
   } // namespace
 
   int command(int argc, char **argv)
@@ -640,10 +648,13 @@ namespace plumbline::app
       return 2;
     }
     // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
-    // another begins
+    // another begins, nor a network, whose libraries measure the clock for a fifth of a second
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    if (getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+    if (!is_launched())
+    {
       setenv("OMPI_MCA_orte_create_session_dirs", "false", 0);
+      setenv("OMPI_MCA_pml", "ob1", 0);
+    }
     // what deal.II's debug build finds is an error that is told, as of other builds
     dealii::deal_II_exceptions::disable_abort_on_exception();
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(
