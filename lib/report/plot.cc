@@ -128,16 +128,23 @@ namespace plumbline::report
       std::ostringstream out;
       if (!ticks.empty())
       {
-        std::string list, separator;
-        double last = 0;
+        std::string list, separator, last;
+        double last_tick = 0;
         for (const double tick : std::set<double>(ticks.begin(), ticks.end()))
         {
-          // Labels closer than this would touch.
-          const bool is_apart = std::log(tick / (last > 0 ? last : tick / 1e9)) >
-                                .075 * std::log(range.high / range.low);
-          list += std::exchange(separator, ", ") + quote_gnuplot(is_apart ? rounded(tick) : "") +
-                  " " + exact(tick);
-          last = is_apart ? tick : last;
+          const std::string label = rounded(tick);
+          // Labels closer than this would touch: a character is a sixtieth of the axis wide.
+          const double width_of_both = static_cast<double>(last.size() + label.size()) / 2 + 1;
+          const bool is_apart =
+              last_tick == 0 ||
+              std::log(tick / last_tick) * 60 > width_of_both * std::log(range.high / range.low);
+          list += std::exchange(separator, ", ") + quote_gnuplot(is_apart ? label : "") + " " +
+                  exact(tick);
+          if (is_apart)
+          {
+            last = label;
+            last_tick = tick;
+          }
         }
         out << "unset m" << name << "tics\nset " << name << "tics nomirror (" << list << ")\n";
       }

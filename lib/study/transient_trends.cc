@@ -307,7 +307,7 @@ namespace plumbline::study
               record.key.method +
               ": the operator is not symmetric, because a bond has different weights at its two "
               "ends. The critical time step is that of the symmetric part. Complex eigenvalues can "
-              "make the solution grow with any time step; 'plumbline stability' computes them.");
+              "make the solution grow with any time step; 'plumbline stability' computes them");
       }
     }
   } // namespace

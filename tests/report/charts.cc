@@ -108,6 +108,27 @@ namespace plumbline::report
                 "level,mesh size h [length],"));
   }
 
+  // eight mesh sizes within less than a decade, as of a published figure
+  TEST(ReportCharts, LeaveOutFiguresThatWouldTouch)
+  {
+    Plot plot;
+    plot.file = "errors.svg";
+    Line line{"FA", style_of(0, false), 1.8, {}};
+    for (const double n : {40., 60., 80., 100., 120., 140., 160., 180.})
+    {
+      plot.x_ticks.push_back(1 / n);
+      line.points.push_back({1 / n, 1 / n});
+    }
+    plot.lines = {line};
+    const std::string script = gnuplot_script({plot});
+    const auto figure = [&](const std::string &text) { return holds(script, "'" + text + "' "); };
+    EXPECT_TRUE(figure("0.005556") && figure("0.025"));
+    EXPECT_FALSE(figure("0.00625"));                    // right beside the first
+    for (const std::string text : {"0.008333", "0.01"}) // one of them at most
+      EXPECT_FALSE(figure(text) && figure("0.007143"));
+    EXPECT_GE(fixture::count(script, "'' 0.0"), 3u); // the lines of the grid stay
+  }
+
   TEST(ReportCharts, AreLeftOutWithoutAPoint)
   {
     study::StudyResults results = fixture::results();
