@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace
 {
@@ -44,20 +46,32 @@ namespace
     return rows;
   }
 
-  /// The largest difference of the first row to a stencil, relative to the diagonal.
+  /// The largest difference of the first row, which has all columns of the stencil, to it, relative
+  /// to the diagonal.
   double difference(const TetrahedralSpace &space, const Rows &rows,
                     const algebra::Stencil &stencil)
   {
     double worst = 0;
     std::size_t n = 0;
+    std::set<std::array<int, 3>> columns;
     for (const auto &[column, value] : rows[0])
     {
       std::array<int, 3> at{};
       for (unsigned int d = 0; d < 3; ++d)
         at[d] = static_cast<int>(std::lround(space.support(column)[d] - space.support(0)[d]));
       worst = std::max(worst, std::abs(value - stencil(0, 0, at[0], at[1], at[2])));
-      n += value != 0 ? 1 : 0;
+      if (value != 0)
+        columns.insert(at);
     }
+    const double rounding = 1e-15 * stencil(0, 0, 0, 0, 0);
+    stencil.for_each_offset(
+        [&](int k1, int k2, int k3)
+        {
+          if (std::abs(stencil(0, 0, k1, k2, k3)) < rounding)
+            return;
+          ++n;
+          EXPECT_EQ(columns.count({k1, k2, k3}), 1u) << k1 << ' ' << k2 << ' ' << k3;
+        });
     EXPECT_GT(n, 50u);
     return worst / stencil(0, 0, 0, 0, 0);
   }
