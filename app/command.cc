@@ -648,7 +648,7 @@ namespace plumbline::app
       return 2;
     }
     // without mpirun: no daemon beside it, nor a shared folder, which one that ends may remove as
-    // another begins, nor a network, whose libraries measure the clock for a fifth of a second
+    // another begins, nor network libraries, one of which spends a fifth of a second on timing
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     if (!is_launched())
     {

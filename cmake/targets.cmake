@@ -60,11 +60,11 @@ function(plumbline_module name)
   set_property(GLOBAL APPEND PROPERTY PLUMBLINE_MODULES ${target})
 endfunction()
 
-# plumbline_unity(<target>): four sources at a time are compiled as one, which takes a third of the time
+# plumbline_unity(<target>): compile four sources as one, which takes about a third of the time
 function(plumbline_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLUMBLINE_UNITY} UNITY_BUILD_BATCH_SIZE 4)
 endfunction()
-# plumbline_alone(<files>): but not these, which give a name in an unnamed namespace that others give to something else
+# plumbline_alone(<files>): except these, whose unnamed namespaces define names that other sources define, too
 function(plumbline_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
