@@ -9,7 +9,6 @@
 #include "reference/mesh/discretisation.h"
 #include "reference/strip/cracked_strip.h"
 #include "reference/tetrahedra/discretisation.h"
-#include "reference/tetrahedra/face_potential.h"
 
 #include <algorithm>
 
@@ -82,7 +81,9 @@ namespace plumbline::reference
       }
       std::string why_not_in_space(const physics::Kernel<3> &kernel, bool is_on_mesh) const override
       {
-        return n_vertices_ == 3 || is_on_mesh ? FacePotential::refuse(kernel) : "";
+        if (n_vertices_ == 3)
+          return refuse_tetrahedra(kernel, tetrahedral_shapes());
+        return is_on_mesh ? refuse_tetrahedra(kernel, tetrahedral_shapes().on_hexahedra()) : "";
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {

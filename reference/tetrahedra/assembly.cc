@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -21,20 +22,50 @@ namespace plumbline::reference
   {
     using dealii::Point;
 
+    /// Of a pair of unknowns, components a and b: entries of bond tensors.
+    using Block = dealii::Tensor<2, 3>;
+
+    template <class Value>
+    constexpr unsigned int n_components = 1;
+    template <>
+    constexpr unsigned int n_components<Block> = 3;
+
+    double transposed(double value)
+    {
+      return value;
+    }
+    Block transposed(const Block &value)
+    {
+      return transpose(value);
+    }
+
+    double component(double value, unsigned int, unsigned int)
+    {
+      return value;
+    }
+    double component(const Block &value, unsigned int a, unsigned int b)
+    {
+      return value[a][b];
+    }
+
+    /// @tparam Value  double, or Block
+    template <class Value>
     struct Entry
     {
       unsigned int column = 0;
-      double value = 0;
+      Value value{};
     };
-    using Row = std::vector<Entry>; ///< columns ascending, each once
+    template <class Value>
+    using Row = std::vector<Entry<Value>>; ///< columns ascending, each once
 
     /// row += factor × other.
-    void add(Row &row, double factor, const Row &other)
+    template <class Value>
+    void add(Row<Value> &row, double factor, const Row<Value> &other)
     {
-      Row sum;
+      Row<Value> sum;
       sum.reserve(row.size() + other.size());
       auto here = row.begin();
-      for (const Entry &entry : other)
+      for (const Entry<Value> &entry : other)
       {
         while (here != row.end() && here->column < entry.column)
           sum.push_back(*here++);
@@ -140,23 +171,150 @@ namespace plumbline::reference
       std::vector<NumberedFace> numbered_;
     };
 
+    /// ∬_{F×G} of one potential, of a face F and those near it.
+    class FaceIntegrals
+    {
+    public:
+      /// @param kernel  one of FacePotential::scalar_parts()
+      /// @param largest_jump  of each face
+      /// @param size_of_pair  by which round-off is measured [1]
+      FaceIntegrals(const physics::Kernel<3> &kernel, FacePotential::Kind kind,
+                    const SortedFaces &faces, const std::vector<double> &largest_jump,
+                    const FaceRule &rule, double size_of_pair)
+          : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind),
+            spacing_(rule.spacing / kernel.horizon())
+      {
+        if (rule.is_exact)
+          exact_.emplace(kernel, kind, rule.tolerance * size_of_pair);
+        else
+          by_rule_.emplace(potential_, rule.refinement);
+      }
+
+      double diffusion() const { return potential_.diffusion(); }
+
+      /// What a thread needs for itself.
+      struct Workspace
+      {
+        std::vector<double> values; ///< of a face and those near it
+        ExactPairs::Shared shared;
+        std::vector<const NumberedFace *> others; ///< of them, those that are not known
+        std::vector<std::size_t> places;          ///< of those there
+        std::vector<ExactPairs::Integral> exact;  ///< their integrals
+        FaceRuleUse use;
+      };
+
+      /// For pairs of some faces, the first of each pair, with others.
+      void start(const std::vector<const NumberedFace *> &first,
+                 const std::vector<const NumberedFace *> &second, Workspace &work) const
+      {
+        if (exact_)
+          work.shared.start(first, second);
+      }
+
+      /// work.values = those of a face and those near it.
+      void find(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
+      {
+        const NumberedFace &f = faces_.numbered(face);
+        work.values.assign(near.size(), 0);
+        if (!exact_)
+          for (std::size_t k = 0; k < near.size(); ++k)
+            work.values[k] = (*by_rule_)(*f.face, *faces_.numbered(near[k]).face);
+        work.others.clear();
+        work.places.clear();
+        for (std::size_t k = 0; exact_ && k < near.size(); ++k)
+          if (const NumberedFace &g = faces_.numbered(near[k]);
+              spacing_ == 0 || !find_repeated(f, g, work, work.values[k]))
+          {
+            work.others.push_back(&g);
+            work.places.push_back(k);
+          }
+        if (work.others.empty())
+          return;
+        (*exact_)(f, work.others, work.shared, work.exact);
+        for (std::size_t k = 0; k < work.others.size(); ++k)
+        {
+          ++work.use.n_pairs[work.exact[k].level];
+          work.values[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
+        }
+      }
+
+    private:
+      double noted(const NumberedFace &f, const NumberedFace &g,
+                   const ExactPairs::Integral &integral, Workspace &work) const
+      {
+        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
+                                                      largest_jump_[g.number]);
+        return integral.value;
+      }
+
+      /// @return  whether both are faces of a lattice
+      bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
+                         double &value) const
+      {
+        const auto places = places_on_lattice(*f.face, *g.face, spacing_);
+        if (places)
+          value = noted(f, g, known(*places, work), work);
+        return places.has_value();
+      }
+
+      /// By the places alone, so that all threads have the same.
+      ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
+      {
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          if (const auto found = known_.find(places); found != known_.end())
+            return found->second;
+        }
+        const auto [f, g] = faces_at(places, spacing_);
+        const ExactPairs::Integral integral = (*exact_)(f, g);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (known_.try_emplace(places, integral).second)
+          ++work.use.n_pairs[integral.level];
+        return integral;
+      }
+
+      const SortedFaces &faces_;
+      const std::vector<double> &largest_jump_;
+      FacePotential potential_;
+      double spacing_; ///< [horizons]
+      std::optional<FacePairs> by_rule_;
+      std::optional<ExactPairs> exact_;
+      mutable std::map<FacePlaces, ExactPairs::Integral> known_;
+      mutable std::mutex mutex_; ///< of what is known
+    };
+
+    /// What a pair of faces adds to an entry, besides their jumps.
+    /// @param parts  the integral of each of FacePotential::scalar_parts()
+    void add_pair(double &sum, double jump, bool is_continuous, const SpaceFace &f,
+                  const SpaceFace &g, const std::array<double, 2> &parts)
+    {
+      sum += jump * parts[0] * (is_continuous ? -1 : f.normal * g.normal);
+    }
+
+    void add_pair(Block &sum, double jump, bool is_continuous, const SpaceFace &f,
+                  const SpaceFace &g, const std::array<double, 2> &parts)
+    {
+      const double cosine = f.normal * g.normal,
+                   isotropic = jump * parts[0] * (is_continuous ? -1 : cosine),
+                   directional = jump * parts[1] * (is_continuous ? -cosine : 1);
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        sum[a][a] += isotropic;
+        for (unsigned int b = 0; b < 3; ++b)
+          sum[a][b] += directional * f.normal[a] * g.normal[b];
+      }
+    }
+
     /// Sums over the faces G about a face F, each pair once: those with G = F by half, and others
     /// with one order of F and G, so that the matrix is the sum and its transpose.
+    template <class Value>
     class FaceRows
     {
     public:
       FaceRows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel, std::size_t n_rows,
                const FaceRule &rule)
-          : space_(space), n_rows_(n_rows), faces_(space, kernel.horizon()),
-            kind_(space.is_continuous() ? FacePotential::Kind::biharmonic
-                                        : FacePotential::Kind::harmonic),
-            potential_(kernel, kind_), spacing_(rule.spacing / kernel.horizon()),
-            search_(faces_.boxes())
+          : space_(space), n_rows_(n_rows), faces_(space, kernel.horizon()), search_(faces_.boxes())
       {
-        if (rule.is_exact)
-          exact_.emplace(kernel, kind_, rule.tolerance * scale_of_pairs(kernel));
-        else
-          by_rule_.emplace(potential_, rule.refinement);
         for (const SpaceFace &face : faces_.faces())
         {
           largest_jump_.push_back(0);
@@ -168,28 +326,30 @@ namespace plumbline::reference
                                    ? 1
                                    : 0);
         }
+        const FacePotential::Kind kind =
+            space.is_continuous() ? FacePotential::Kind::biharmonic : FacePotential::Kind::harmonic;
+        for (const physics::Kernel<3> &part : FacePotential::scalar_parts(kernel))
+          integrals_.push_back(std::make_unique<const FaceIntegrals>(
+              part, kind, faces_, largest_jump_, rule, size_of_pair(kernel)));
       }
 
       const std::vector<SpaceFace> &faces() const { return faces_.faces(); }
       const std::vector<std::size_t> &blocks() const { return faces_.blocks(); }
-      double diffusion() const { return potential_.diffusion(); }
+      std::size_t n_parts() const { return integrals_.size(); }
+      double diffusion(std::size_t part) const { return integrals_[part]->diffusion(); }
 
       /// What a thread needs for itself.
       struct Workspace
       {
         std::vector<unsigned int> near, columns;
-        std::vector<double> sums; ///< of all unknowns, 0 between calls
-        ExactPairs::Shared shared;
-        std::vector<double> integrals;            ///< of a face and those near it
-        std::vector<const NumberedFace *> others; ///< of them, those that are not known
-        std::vector<std::size_t> places;          ///< of those there
-        std::vector<ExactPairs::Integral> exact;  ///< their integrals
-        FaceRuleUse use;
+        std::vector<Value> sums;     ///< of all unknowns, 0 between calls
+        std::vector<char> is_summed; ///< of all unknowns, 0 between calls
+        std::array<FaceIntegrals::Workspace, 2> of_parts;
       };
 
       /// rows = sums of the faces of a block.
       /// @param rows  as many as the block has faces
-      void add_block(std::size_t block, Row *rows, Workspace &work) const
+      void add_block(std::size_t block, Row<Value> *rows, Workspace &work) const
       {
         const std::size_t first = blocks()[block], last = blocks()[block + 1];
         std::vector<std::vector<unsigned int>> near(last - first);
@@ -210,15 +370,15 @@ namespace plumbline::reference
           if (!partners.empty())
             own.push_back(&faces_.numbered(face));
         }
-        if (exact_)
-          work.shared.start(own, all);
+        for (std::size_t part = 0; part < integrals_.size(); ++part)
+          integrals_[part]->start(own, all, work.of_parts[part]);
         for (std::size_t face = first; face < last; ++face)
           rows[face - first] = make_row(face, near[face - first], work);
       }
 
     private:
       /// m₀ times a volume, and divided by jumps.
-      double scale_of_pairs(const physics::Kernel<3> &kernel) const
+      double size_of_pair(const physics::Kernel<3> &kernel) const
       {
         const double m0 = 4 * M_PI * kernel.profile().moment(2);
         return m0 * (space_.is_continuous() ? std::pow(faces_.volume_of_vertex(), 5. / 3)
@@ -258,99 +418,40 @@ namespace plumbline::reference
         return f.centre().distance_square(g.centre()) < reach * reach;
       }
 
-      /// Of a face and those near it.
-      void find_integrals(std::size_t face, const std::vector<unsigned int> &near,
+      /// Of unknowns j, what add_pair() says of F and each G times j's jump there.
+      Row<Value> make_row(std::size_t face, const std::vector<unsigned int> &near,
                           Workspace &work) const
       {
-        const NumberedFace &f = faces_.numbered(face);
-        work.integrals.assign(near.size(), 0);
-        if (!exact_)
-          for (std::size_t k = 0; k < near.size(); ++k)
-            work.integrals[k] = (*by_rule_)(*f.face, *faces_.numbered(near[k]).face);
-        work.others.clear();
-        work.places.clear();
-        for (std::size_t k = 0; exact_ && k < near.size(); ++k)
-          if (const NumberedFace &g = faces_.numbered(near[k]);
-              spacing_ == 0 || !find_repeated(f, g, work, work.integrals[k]))
-          {
-            work.others.push_back(&g);
-            work.places.push_back(k);
-          }
-        if (work.others.empty())
-          return;
-        (*exact_)(f, work.others, work.shared, work.exact);
-        for (std::size_t k = 0; k < work.others.size(); ++k)
-          work.integrals[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
-      }
-
-      double noted(const NumberedFace &f, const NumberedFace &g,
-                   const ExactPairs::Integral &integral, Workspace &work) const
-      {
-        ++work.use.n_pairs[integral.level];
-        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
-                                                      largest_jump_[g.number]);
-        return integral.value;
-      }
-
-      /// @return  whether both are faces of a lattice
-      bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
-                         double &value) const
-      {
-        const auto places = places_on_lattice(*f.face, *g.face, spacing_);
-        if (!places)
-          return false;
-        const ExactPairs::Integral integral = known(*places, work);
-        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
-                                                      largest_jump_[g.number]);
-        value = integral.value;
-        return true;
-      }
-
-      /// By the places alone, so that all threads have the same.
-      ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
-      {
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          if (const auto found = known_.find(places); found != known_.end())
-            return found->second;
-        }
-        const auto [f, g] = faces_at(places, spacing_);
-        const ExactPairs::Integral integral = (*exact_)(f, g);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (known_.try_emplace(places, integral).second)
-          ++work.use.n_pairs[integral.level];
-        return integral;
-      }
-
-      /// Of unknowns j: Σ_G ∬_{F×G} Λ n_F·n_j(G), or -Σ_G J_j(G) ∬_{F×G} Ψ.
-      Row make_row(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
-      {
         work.sums.resize(space_.n_dofs());
+        work.is_summed.resize(space_.n_dofs());
         work.columns.clear();
-        find_integrals(face, near, work);
+        for (std::size_t part = 0; part < integrals_.size(); ++part)
+          integrals_[part]->find(face, near, work.of_parts[part]);
         for (std::size_t k = 0; k < near.size(); ++k)
         {
           const unsigned int other = near[k];
-          const double value = work.integrals[k] * (other == face ? .5 : 1);
-          if (value == 0)
+          std::array<double, 2> values{};
+          for (std::size_t part = 0; part < integrals_.size(); ++part)
+            values[part] = work.of_parts[part].values[k] * (other == face ? .5 : 1);
+          if (values[0] == 0 && values[1] == 0)
             continue;
-          const SpaceFace &g = faces()[other];
-          const double factor =
-              space_.is_continuous() ? -value : value * (faces()[face].normal * g.normal);
+          const SpaceFace &f = faces()[face], &g = faces()[other];
           for (const auto &[dof, jump] : g.jumps)
           {
-            if (work.sums[dof] == 0)
+            if (work.is_summed[dof] == 0)
               work.columns.push_back(dof);
-            work.sums[dof] += factor * jump;
+            work.is_summed[dof] = 1;
+            add_pair(work.sums[dof], jump, space_.is_continuous(), f, g, values);
           }
         }
         std::sort(work.columns.begin(), work.columns.end());
-        Row row;
+        Row<Value> row;
         for (const unsigned int dof : work.columns)
         {
-          if (work.sums[dof] != 0 && (is_needed_[face] != 0 || dof < n_rows_))
-            row.push_back({dof, work.sums[dof]}); // else it is listed twice, or all cancels
-          work.sums[dof] = 0;
+          if (work.sums[dof] != Value() && (is_needed_[face] != 0 || dof < n_rows_))
+            row.push_back({dof, work.sums[dof]}); // else all cancels
+          work.sums[dof] = Value();
+          work.is_summed[dof] = 0;
         }
         return row;
       }
@@ -358,19 +459,14 @@ namespace plumbline::reference
       const TetrahedralSpace &space_;
       std::size_t n_rows_;
       SortedFaces faces_;
-      FacePotential::Kind kind_;
-      FacePotential potential_;
-      double spacing_; ///< [horizons]
-      std::optional<FacePairs> by_rule_;
-      std::optional<ExactPairs> exact_;
-      mutable std::map<FacePlaces, ExactPairs::Integral> known_;
-      mutable std::mutex mutex_;         ///< of what is known
       std::vector<double> largest_jump_; ///< of each face
       std::vector<char> is_needed_;      ///< faces that rows asked for have
+      std::vector<std::unique_ptr<const FaceIntegrals>> integrals_; ///< of each part of the kernel
       geometry::BoxSearch<3> search_;
     };
 
     /// Of faces before `last`, what they add to the rows of unknowns.
+    template <class Value>
     class DofRows
     {
     public:
@@ -383,20 +479,20 @@ namespace plumbline::reference
       }
 
       /// @param of_faces  from `first` to before `last`
-      void add_faces(const std::vector<Row> &of_faces, std::size_t first, std::size_t last)
+      void add_faces(const std::vector<Row<Value>> &of_faces, std::size_t first, std::size_t last)
       {
         constexpr unsigned int grain = 64;
         dealii::parallel::apply_to_subranges(
             static_cast<std::size_t>(0), rows_.size(),
             [&](std::size_t begin, std::size_t end)
             {
-              Row some;
+              Row<Value> some;
               for (std::size_t i = begin; i < end; ++i)
                 for (; n_done_[i] < shares_[i].size() && shares_[i][n_done_[i]].face < last;
                      ++n_done_[i])
                 {
                   const auto &[face, jump] = shares_[i][n_done_[i]];
-                  const Row &row = of_faces[face - first];
+                  const Row<Value> &row = of_faces[face - first];
                   some.clear();
                   if (i >= n_rows_)
                     for (std::size_t k = 0; k < row.size() && row[k].column < n_rows_; ++k)
@@ -408,18 +504,18 @@ namespace plumbline::reference
       }
 
       /// The sum of it and its transpose.
-      std::vector<Row> symmetric()
+      std::vector<Row<Value>> symmetric()
       {
-        std::vector<Row> transposed(n_rows_);
+        std::vector<Row<Value>> below(n_rows_);
         for (std::size_t row = 0; row < rows_.size(); ++row)
           for (const auto &[column, value] : rows_[row])
             if (column < n_rows_)
-              transposed[column].push_back({static_cast<unsigned int>(row), value});
+              below[column].push_back({static_cast<unsigned int>(row), transposed(value)});
         rows_.resize(n_rows_);
         for (std::size_t row = 0; row < n_rows_; ++row)
         {
-          add(rows_[row], 1, transposed[row]);
-          transposed[row] = {};
+          add(rows_[row], 1, below[row]);
+          below[row] = {};
         }
         return std::move(rows_);
       }
@@ -434,11 +530,31 @@ namespace plumbline::reference
       std::size_t n_rows_;
       std::vector<std::vector<Share>> shares_; ///< faces ascending
       std::vector<std::size_t> n_done_;        ///< of each unknown's shares
-      std::vector<Row> rows_;                  ///< beyond n_rows only columns before it
+      std::vector<Row<Value>> rows_;           ///< beyond n_rows only columns before it
     };
 
-    /// rows += factor × ∫∇φ_i·∇φ_j.
-    void add_local(const TetrahedralSpace &space, double factor, std::vector<Row> &rows)
+    /// What ∫∇φ_i·∇φ_j (times the first factor) and ∫∇φ_i⊗∇φ_j (the second) of a cell add.
+    void add_slopes(double &sum, const std::array<double, 2> &factors,
+                    const dealii::Tensor<1, 3> &i, const dealii::Tensor<1, 3> &j)
+    {
+      sum += factors[0] * (i * j);
+    }
+
+    void add_slopes(Block &sum, const std::array<double, 2> &factors, const dealii::Tensor<1, 3> &i,
+                    const dealii::Tensor<1, 3> &j)
+    {
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        sum[a][a] += factors[0] * (i * j);
+        for (unsigned int b = 0; b < 3; ++b)
+          sum[a][b] += factors[1] * (i[a] * j[b]);
+      }
+    }
+
+    /// rows += those of the local operator, see add_slopes().
+    template <class Value>
+    void add_local(const TetrahedralSpace &space, const std::array<double, 2> &factors,
+                   std::vector<Row<Value>> &rows)
     {
       const TetrahedralMesh &mesh = space.mesh();
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
@@ -449,40 +565,104 @@ namespace plumbline::reference
         {
           if (space.dof(cell, i) >= rows.size())
             continue;
-          Row local;
+          Row<Value> local;
           for (unsigned int j = 0; j < 4; ++j)
-            local.push_back({space.dof(cell, j), volume * (slopes[i] * slopes[j])});
+          {
+            local.push_back({space.dof(cell, j)});
+            add_slopes(local.back().value, factors, slopes[i], slopes[j]);
+          }
           std::sort(local.begin(), local.end(),
-                    [](const Entry &a, const Entry &b) { return a.column < b.column; });
-          add(rows[space.dof(cell, i)], factor, local);
+                    [](const Entry<Value> &a, const Entry<Value> &b)
+                    { return a.column < b.column; });
+          add(rows[space.dof(cell, i)], volume, local);
         }
       }
     }
 
-    double least_diagonal(const std::vector<Row> &rows)
+    template <class Value>
+    double least_diagonal(const std::vector<Row<Value>> &rows)
     {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t row = 0; row < rows.size(); ++row)
-        for (const Entry &entry : rows[row])
-          if (entry.column == row)
-            least = std::min(least, entry.value);
+        for (const Entry<Value> &entry : rows[row])
+          for (unsigned int a = 0; entry.column == row && a < n_components<Value>; ++a)
+            least = std::min(least, component(entry.value, a, a));
       return least;
     }
 
-    algebra::CsrMatrix to_matrix(const std::vector<Row> &rows, double factor)
+    template <class Value>
+    algebra::CsrMatrix to_matrix(const std::vector<Row<Value>> &rows, double factor)
     {
+      constexpr unsigned int n = n_components<Value>;
       algebra::CsrMatrix matrix;
       matrix.start.push_back(0);
-      for (const Row &row : rows)
-      {
-        for (const auto &[column, value] : row)
+      for (const Row<Value> &row : rows)
+        for (unsigned int a = 0; a < n; ++a)
         {
-          matrix.column.push_back(column);
-          matrix.value.push_back(factor * value);
+          for (const auto &[column, value] : row)
+            for (unsigned int b = 0; b < n; ++b)
+            {
+              matrix.column.push_back(n * column + b);
+              matrix.value.push_back(factor * component(value, a, b));
+            }
+          matrix.start.push_back(matrix.column.size());
         }
-        matrix.start.push_back(matrix.column.size());
-      }
       return matrix;
+    }
+
+    template <class Value>
+    algebra::CsrMatrix assemble(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
+                                std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use)
+    {
+      const FaceRows<Value> of_face(space, kernel, n_rows, rule);
+      const double horizon = kernel.horizon();
+      const std::vector<std::size_t> &blocks = of_face.blocks();
+      DofRows<Value> sums(of_face.faces(), space.n_dofs(), n_rows);
+      std::mutex mutex;
+      FaceRuleUse total;
+      constexpr std::size_t n_at_once = 2048; // some 15 MB of rows of faces, of bond tensors 75
+      std::vector<Row<Value>> of_faces;
+      for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
+      {
+        while (last + 1 < blocks.size() &&
+               (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
+          ++last;
+        of_faces.assign(blocks[last] - blocks[first], {});
+        dealii::parallel::apply_to_subranges(
+            first, last,
+            [&](std::size_t begin, std::size_t end)
+            {
+              typename FaceRows<Value>::Workspace work;
+              for (std::size_t block = begin; block < end; ++block)
+                of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
+              const std::lock_guard<std::mutex> lock(mutex);
+              for (const FaceIntegrals::Workspace &part : work.of_parts)
+              {
+                for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
+                  total.n_pairs[level] += part.use.n_pairs[level];
+                total.error = std::max(total.error, part.use.error);
+              }
+            },
+            1);
+        sums.add_faces(of_faces, blocks[first], blocks[last]);
+      }
+      std::vector<Row<Value>> rows = sums.symmetric();
+      // lengths of ∬γ in horizons: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
+      double unit = kernel.constant() * std::pow(horizon, 6);
+      if (space.is_continuous())
+      {
+        unit *= horizon * horizon;
+        std::array<double, 2> factors{};
+        for (std::size_t part = 0; part < of_face.n_parts(); ++part)
+          factors[part] = of_face.diffusion(part) / std::pow(horizon, 3);
+        add_local(space, factors, rows);
+      }
+      if (use != nullptr)
+      {
+        *use = total;
+        use->error /= least_diagonal(rows);
+      }
+      return to_matrix(rows, unit);
     }
   } // namespace
 
@@ -492,49 +672,9 @@ namespace plumbline::reference
   {
     if (!space.is_continuous() && space.degree() == 1)
       return assemble_with_jumps(space, kernel, n_rows, rule, use);
-    const FaceRows of_face(space, kernel, n_rows, rule);
-    const double horizon = kernel.horizon();
-    const std::vector<std::size_t> &blocks = of_face.blocks();
-    DofRows sums(of_face.faces(), space.n_dofs(), n_rows);
-    std::mutex mutex;
-    FaceRuleUse total;
-    constexpr std::size_t n_at_once = 2048; // some 15 MB of rows of faces
-    std::vector<Row> of_faces;
-    for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
-    {
-      while (last + 1 < blocks.size() &&
-             (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
-        ++last;
-      of_faces.assign(blocks[last] - blocks[first], {});
-      dealii::parallel::apply_to_subranges(
-          first, last,
-          [&](std::size_t begin, std::size_t end)
-          {
-            FaceRows::Workspace work;
-            for (std::size_t block = begin; block < end; ++block)
-              of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
-            const std::lock_guard<std::mutex> lock(mutex);
-            for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
-              total.n_pairs[level] += work.use.n_pairs[level];
-            total.error = std::max(total.error, work.use.error);
-          },
-          1);
-      sums.add_faces(of_faces, blocks[first], blocks[last]);
-    }
-    std::vector<Row> rows = sums.symmetric();
-    // lengths of ∬γ in horizons: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
-    double unit = kernel.constant() * std::pow(horizon, 6);
-    if (space.is_continuous())
-    {
-      unit *= horizon * horizon;
-      add_local(space, of_face.diffusion() / std::pow(horizon, 3), rows);
-    }
-    if (use != nullptr)
-    {
-      *use = total;
-      use->error /= least_diagonal(rows);
-    }
-    return to_matrix(rows, unit);
+    return kernel.structure() == physics::Structure::scalar
+               ? assemble<double>(space, kernel, n_rows, rule, use)
+               : assemble<Block>(space, kernel, n_rows, rule, use);
   }
 
   double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b)

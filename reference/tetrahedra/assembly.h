@@ -33,7 +33,8 @@ namespace plumbline::reference
   /// How they were made, exactly.
   struct FaceRuleUse
   {
-    /// Pairs of faces in double, in long double, with 124 and with 237 bits.
+    /// Integrals over pairs of faces in double, in long double, with 124 and with 237 bits; of
+    /// bond tensors two for each pair.
     std::array<std::size_t, 4> n_pairs{};
     /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
     /// diagonal entry.
@@ -46,10 +47,12 @@ namespace plumbline::reference
   };
 
   /// Rows ½∬C(x - y) (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) of unknowns i = 0 ... n_rows - 1 by all
-  /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Entries are
+  /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Bond tensors
+  /// have three rows and three columns for each unknown, one after another. Entries are
   /// exact to round-off, or up to the quadrature over pairs of faces; all else is exact, so that
   /// rows annihilate constants, and those of continuous functions linear fields, to round-off.
-  /// Symmetric to the last bit. Linear functions that are not continuous: assemble_with_jumps().
+  /// Symmetric to the last bit. Linear functions that are not continuous: assemble_with_jumps(),
+  /// for scalar kernels.
   /// @pre  rows of unknowns whose supports are a horizon or more from the outside of the mesh; a
   /// kernel that FacePotential takes
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,

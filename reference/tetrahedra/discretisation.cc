@@ -28,12 +28,14 @@ namespace plumbline::reference
     {
     public:
       GalerkinOnTetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
-          : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra && !problem.mesh)
+          : lattice_(problem.lattice), is_of_cubes_(!problem.make_tetrahedra && !problem.mesh),
+            n_components_(problem.kernel.n_components())
       {
         const auto mesh = std::make_shared<const TetrahedralMesh>(make_mesh(problem, shapes));
         space_ = std::make_shared<const TetrahedralSpace>(mesh, shapes);
         if (space_->n_free() == 0)
           throw NumericalError("no vertex is inside the domain; choose a smaller h (Study/h)");
+        options_.n_components = n_components_;
         options_.solver = problem.settings.solver.linear_solver;
         options_.iteration = problem.settings.solver.iteration;
         if (shapes.is_trilinear())
@@ -41,25 +43,22 @@ namespace plumbline::reference
         else
           set_rows(make_rows(problem));
         diagnostics_.n_neighbours = static_cast<unsigned int>(
-            (free_->column.size() + constrained_.column.size()) / n_unknowns() - 1);
+            (free_->column.size() + constrained_.column.size()) / n_unknowns() / n_components_ - 1);
         if (shapes.degree > 0 && is_of_cubes_)
           diagnostics_.limit = method::prove_galerkin(problem);
       }
 
-      std::size_t n_unknowns() const override { return space_->n_free(); }
+      std::size_t n_unknowns() const override { return space_->n_free() * n_components_; }
 
       Data data(const problem::Problem<3> &problem) const override
       {
         // the operator does not see a constant, but the solver's tolerance and rounding would
         std::vector<double> around = constraint_values(problem);
-        const auto [low, high] = std::minmax_element(around.begin(), around.end());
-        const double middle = around.empty() ? 0 : *low + (*high - *low) / 2;
-        for (double &value : around)
-          value -= middle;
+        const std::vector<double> middle = remove_middle(around);
         Data result;
-        const std::vector<double> load = tested_load(problem.load, *space_);
-        result.load.reinit(static_cast<unsigned int>(load.size()));
-        std::copy(load.begin(), load.end(), result.load.begin());
+        const std::vector<double> tested = load(problem);
+        result.load.reinit(static_cast<unsigned int>(tested.size()));
+        std::copy(tested.begin(), tested.end(), result.load.begin());
         method::subtract_constrained(constrained_, around, result.load);
         result.field = [this, around = std::move(around), middle](const Vector &u)
         { return field(u, around, middle); };
@@ -69,11 +68,12 @@ namespace plumbline::reference
       method::LinearEquations<3> equations(const problem::Problem<3> &problem) const override
       {
         method::LinearEquations<3> result;
+        result.n_components = n_components_;
         for (std::size_t dof = 0; dof < space_->n_dofs(); ++dof)
           result.nodes.push_back(space_->support(dof));
         result.n_free = space_->n_free();
         result.rows = method::join(*free_, constrained_);
-        result.load = tested_load(problem.load, *space_);
+        result.load = load(problem);
         result.constraint = constraint_values(problem);
         return result;
       }
@@ -176,44 +176,90 @@ namespace plumbline::reference
             problem.mesh ? *problem.mesh : problem.make_tetrahedra(), n_first);
       }
 
-      /// The constraint at the unknowns that free ones see, 0 at others.
+      /// The constraint at the nodes that free ones see, 0 at others.
       std::vector<double> constraint_values(const problem::Problem<3> &problem) const
       {
-        std::vector<double> values(space_->n_dofs() - space_->n_free());
-        std::vector<char> is_reached(values.size());
+        const std::size_t n_nodes = space_->n_dofs() - space_->n_free();
+        std::vector<double> values(n_nodes * n_components_);
+        std::vector<char> is_reached(n_nodes);
         for (const unsigned int column : constrained_.column)
-          is_reached[column] = 1;
+          is_reached[column / n_components_] = 1;
         const TetrahedralMesh &mesh = space_->mesh();
         for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
           for (unsigned int corner = 0; corner < 4; ++corner)
             if (const unsigned int dof = space_->dof(cell, corner);
                 mesh.is_inside[cell] != 0 && dof >= space_->n_free())
               is_reached[dof - space_->n_free()] = 1; // averages are of it
-        for (std::size_t k = 0; k < values.size(); ++k)
-          if (is_reached[k] != 0)
-            values[k] = problem.constraint.value(space_->support(space_->n_free() + k), 0);
+        for (std::size_t k = 0; k < n_nodes; ++k)
+          for (unsigned int c = 0; is_reached[k] != 0 && c < n_components_; ++c)
+            values[k * n_components_ + c] =
+                problem.constraint.value(space_->support(space_->n_free() + k), c);
         return values;
       }
 
-      method::FieldInSpace field(const Vector &u, const std::vector<double> &around,
-                                 double middle) const
+      /// Subtract from each component the middle of its values, and return it.
+      std::vector<double> remove_middle(std::vector<double> &around) const
       {
-        std::vector<double> values(u.begin(), u.end());
-        values.insert(values.end(), around.begin(), around.end());
-        for (double &value : values)
-          value += middle;
+        std::vector<double> middle(n_components_);
+        for (unsigned int c = 0; c < n_components_ && !around.empty(); ++c)
+        {
+          double low = around[c], high = low;
+          for (std::size_t k = c; k < around.size(); k += n_components_)
+          {
+            low = std::min(low, around[k]);
+            high = std::max(high, around[k]);
+          }
+          middle[c] = low + (high - low) / 2;
+          for (std::size_t k = c; k < around.size(); k += n_components_)
+            around[k] -= middle[c];
+        }
+        return middle;
+      }
+
+      method::FieldInSpace field(const Vector &u, const std::vector<double> &around,
+                                 const std::vector<double> &middle) const
+      {
         method::FieldInSpace result;
-        const auto n = static_cast<std::ptrdiff_t>(space_->n_free());
         for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
           result.nodes.push_back(space_->support(dof));
-        result.nodal.assign(values.begin(), values.begin() + n);
-        const auto field = std::make_shared<const TetrahedralField>(space_, std::move(values));
         if (!is_of_cubes_)
           result.volumes = volumes(*space_);
-        result.averages = field->averages(lattice_);
-        result.value = [field](const Point<3> &x, unsigned int) { return field->value(x); };
+        std::vector<std::shared_ptr<const TetrahedralField>> fields;
+        std::vector<std::vector<double>> averages;
+        result.nodal.resize(n_unknowns());
+        for (unsigned int c = 0; c < n_components_; ++c)
+        {
+          std::vector<double> values;
+          for (std::size_t k = c; k < u.size(); k += n_components_)
+          {
+            values.push_back(u[static_cast<unsigned int>(k)] + middle[c]);
+            result.nodal[k] = values.back();
+          }
+          for (std::size_t k = c; k < around.size(); k += n_components_)
+            values.push_back(around[k] + middle[c]);
+          fields.push_back(std::make_shared<const TetrahedralField>(space_, std::move(values)));
+          averages.push_back(fields.back()->averages(lattice_));
+        }
+        for (std::size_t cell = 0; cell < averages.front().size(); ++cell)
+          for (const std::vector<double> &of_component : averages)
+            result.averages.push_back(of_component[cell]);
+        result.value = [fields](const Point<3> &x, unsigned int c) { return fields[c]->value(x); };
         if (space_->degree() > 0)
-          result.gradient = [field](const Point<3> &x, unsigned int) { return field->gradient(x); };
+          result.gradient = [fields](const Point<3> &x, unsigned int c)
+          { return fields[c]->gradient(x); };
+        return result;
+      }
+
+      /// Tested by the free unknowns, shape (n_free, n_components).
+      std::vector<double> load(const problem::Problem<3> &problem) const
+      {
+        std::vector<double> result(n_unknowns());
+        for (unsigned int c = 0; c < n_components_; ++c)
+        {
+          const std::vector<double> of_component = tested_load(problem.load, *space_, c);
+          for (std::size_t k = 0; k < of_component.size(); ++k)
+            result[k * n_components_ + c] = of_component[k];
+        }
         return result;
       }
 
@@ -247,7 +293,7 @@ namespace plumbline::reference
           check.tolerance = of_meshes;
           exact.of_jumps *= 10;
           check.of_jumps *= 10;
-          matrix = assemble_by_faces(*space_, problem.kernel, n_unknowns(), exact, &use);
+          matrix = assemble_by_faces(*space_, problem.kernel, space_->n_free(), exact, &use);
           change =
               difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check), matrix);
         }
@@ -288,11 +334,12 @@ namespace plumbline::reference
         const std::string sample = is_of_cubes_ ? "all entries" : "a sample of entries";
         diagnostics_.notes.push_back(
             std::string(has_jumps ? "entries of continuous functions" : "entries") +
-            " exact to round-off by integrals along lines for " +
-            std::to_string(n_double + n_long + n_quad + n_octuple) + " pairs of faces, " +
-            std::to_string(n_long) + " of them in long double and " +
-            std::to_string(n_quad + n_octuple) + " with 124 bits or more, each to " +
-            base::to_text(use.error, 1) + " of the diagonal; " +
+            " exact to round-off by integrals along lines: " +
+            std::to_string(n_double + n_long + n_quad + n_octuple) +
+            " integrals over pairs of faces, " + std::to_string(n_long) +
+            " of them in long double and " + std::to_string(n_quad + n_octuple) +
+            " with 124 bits or more, each to " + base::to_text(use.error, 1) +
+            " of the diagonal; " +
             (has_jumps
                  ? "jumps are integrated by Gauss rules along the sides of one face, to about "
                    "1e-8, and by quadrature over the other, where a tolerance ten times "
@@ -308,11 +355,12 @@ namespace plumbline::reference
       {
         constexpr std::size_t n = 4; // vertices or cells
         return std::min(n * (space_->is_continuous() ? 1 : space_->shapes().n_per_cell()),
-                        n_unknowns());
+                        space_->n_free());
       }
 
       geometry::CubeLattice lattice_;
       bool is_of_cubes_; ///< the mesh is that of the lattice
+      unsigned int n_components_;
       std::shared_ptr<const TetrahedralSpace> space_;
       std::shared_ptr<const algebra::CsrMatrix> free_;
       algebra::CsrMatrix constrained_;
@@ -321,10 +369,19 @@ namespace plumbline::reference
     };
   } // namespace
 
+  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, TetrahedralShapes shapes)
+  {
+    const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
+    if (kernel.structure() == physics::Structure::tensor && (shapes.is_trilinear() || has_jumps))
+      return "bond tensors have entries on tetrahedra and hexahedra by P1, DGP0 and DGQ0; take "
+             "these";
+    return FacePotential::refuse(kernel);
+  }
+
   std::unique_ptr<method::DiscretisationInSpace>
   discretise_on_tetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
   {
-    if (const std::string reason = FacePotential::refuse(problem.kernel); !reason.empty())
+    if (const std::string reason = refuse_tetrahedra(problem.kernel, shapes); !reason.empty())
       throw InputError(reason);
     return std::make_unique<GalerkinOnTetrahedra>(problem, shapes);
   }
@@ -362,7 +419,7 @@ namespace plumbline::reference
                  of_lattice_faces = has_jumps ? n_of_cube * of_face : 0,
                  of_scattered_faces = has_jumps ? n_at_once * of_face : 6e7,
                  of_faces = size.is_scattered ? of_scattered_faces : of_lattice_faces;
-    return n_cubes * n_types * n_columns * of_entry + n_all * 6 * of_cell + of_faces +
-           n_pairs * of_pair;
+    return n_cubes * n_types * n_columns * std::pow(size.n_components, 2) * of_entry +
+           n_all * 6 * of_cell + of_faces + n_pairs * of_pair;
   }
 } // namespace plumbline::reference

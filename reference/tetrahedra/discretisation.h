@@ -6,6 +6,9 @@
 
 namespace plumbline::reference
 {
+  /// Why these functions have no entries of a kernel, and the remedy; empty: they have.
+  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, TetrahedralShapes shapes);
+
   /// Functions on the problem's tetrahedra. Entries are exact, see FacePotential; those of linear
   /// functions that are not continuous need quadrature, see assemble_with_jumps().
   /// @throws InputError  a kernel that refuse_tetrahedra() refuses

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace plumbline::reference
 {
@@ -24,6 +25,18 @@ namespace plumbline::reference
                          [](const physics::PowerTerm &term)
                          { return term.coefficient != 0 && term.exponent > highest_exponent; });
     }
+
+    /// Whether ∫ρ/t of a bond tensor is a sum of powers, too.
+    bool has_powers_over_t(const physics::RadialProfile &profile)
+    {
+      if (profile.is_function() || !profile.breaks().empty())
+        return false;
+      return std::all_of(profile.powers().begin(), profile.powers().end(),
+                         [](const physics::PowerTerm &term) {
+                           return term.coefficient == 0 ||
+                                  (term.exponent != 0 && term.exponent <= highest_exponent);
+                         });
+    }
   } // namespace
 
   FacePotential::FacePotential(const physics::Kernel<3> &kernel, Kind kind)
@@ -32,6 +45,33 @@ namespace plumbline::reference
     diffusion_ = share_of_second_moment * kernel.profile().moment(4);
     for (const PotentialTerms &part : terms(kernel))
       parts_.emplace_back(part, kind == Kind::harmonic ? 1 : 3);
+  }
+
+  std::vector<physics::Kernel<3>> FacePotential::scalar_parts(const physics::Kernel<3> &kernel)
+  {
+    if (kernel.structure() == physics::Structure::scalar)
+      return {kernel};
+    std::map<int, double> isotropic, directional; // coefficients by exponent: q and w
+    for (const auto &[coefficient, exponent] : kernel.profile().powers())
+    {
+      if (coefficient == 0)
+        continue;
+      const double share = coefficient / exponent;
+      isotropic[0] += share;
+      isotropic[exponent] -= share;
+      directional[exponent] += coefficient;
+    }
+    for (const auto &[exponent, coefficient] : isotropic)
+      directional[exponent] -= 3 * coefficient;
+    const auto make = [&kernel](const std::map<int, double> &coefficients)
+    {
+      physics::RadialProfile::Powers powers;
+      for (const auto &[exponent, coefficient] : coefficients)
+        powers.push_back({coefficient, exponent});
+      return physics::Kernel<3>(physics::Structure::scalar, powers, kernel.horizon(),
+                                kernel.constant());
+    };
+    return {make(isotropic), make(directional)};
   }
 
   std::vector<PotentialTerms> FacePotential::terms(const physics::Kernel<3> &kernel)
@@ -108,11 +148,19 @@ namespace plumbline::reference
     const std::string remedy =
         "; write Kernel/type = constant, linear-decay, 1/r, polynomial, "
         "gaussian, exponential or table, or take Q1 or DGQ0 on a lattice of cubes";
-    if (kernel.structure() != physics::Structure::scalar)
-      return "entries on tetrahedra and hexahedra are for scalar kernels, not for bond tensors" +
-             remedy;
+    const bool is_tensor = kernel.structure() == physics::Structure::tensor;
+    const std::string remedy_of_tensors =
+        "; write Kernel/type = bond-tensor, or bond-tensor polynomial with 0 as the coefficient of "
+        "(r/δ)^0, or take Q1 or DGQ0 on a lattice of cubes";
     if (kernel.profile().lowest_exponent() < lowest_exponent)
-      return "entries on tetrahedra and hexahedra are for kernels of at most 1/r at 0" + remedy;
+      return "entries on tetrahedra and hexahedra are for kernels of at most 1/r at 0" +
+             (is_tensor ? remedy_of_tensors : remedy);
+    if (is_tensor)
+      return has_powers_over_t(kernel.profile())
+                 ? ""
+                 : "entries of bond tensors on tetrahedra and hexahedra are for radial profiles "
+                   "that are sums of powers of r without a constant" +
+                       remedy_of_tensors;
     if (is_series(kernel.profile()))
       if (const double error = ProfileSeries(kernel.profile()).error; !(error < most_of_series))
         return "128 Chebyshev terms approximate the radial profile only to " +

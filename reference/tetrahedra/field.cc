@@ -273,24 +273,25 @@ namespace plumbline::reference
 
     /// By a product of Gauss rules of degree 5 on each hexahedron.
     std::vector<double> tested_on_hexahedra(const problem::Field<3> &load,
-                                            const TetrahedralSpace &space)
+                                            const TetrahedralSpace &space, unsigned int component)
     {
       static const dealii::QGauss<3> rule(3);
-      const auto of_cells = for_cells<8>(
-          load, space.mesh(), geometry::n_in_hexahedron,
-          [&](const problem::Field<3> &b, std::size_t cell, Hexahedron::Values &sums)
-          {
-            const Hexahedron hexahedron(space.mesh(), cell);
-            for (unsigned int q = 0; q < rule.size(); ++q)
-            {
-              const auto &s = rule.point(q);
-              const double value =
-                  rule.weight(q) * determinant(hexahedron.jacobian(s)) * b(hexahedron.at(s), 0);
-              const Hexahedron::Values phi = Hexahedron::values(s);
-              for (unsigned int corner = 0; corner < phi.size(); ++corner)
-                sums[corner] += value * phi[corner];
-            }
-          });
+      const auto of_cells =
+          for_cells<8>(load, space.mesh(), geometry::n_in_hexahedron,
+                       [&](const problem::Field<3> &b, std::size_t cell, Hexahedron::Values &sums)
+                       {
+                         const Hexahedron hexahedron(space.mesh(), cell);
+                         for (unsigned int q = 0; q < rule.size(); ++q)
+                         {
+                           const auto &s = rule.point(q);
+                           const double value = rule.weight(q) *
+                                                determinant(hexahedron.jacobian(s)) *
+                                                b(hexahedron.at(s), component);
+                           const Hexahedron::Values phi = Hexahedron::values(s);
+                           for (unsigned int corner = 0; corner < phi.size(); ++corner)
+                             sums[corner] += value * phi[corner];
+                         }
+                       });
       std::vector<double> result(space.n_free());
       for (std::size_t cell = 0; cell < of_cells.size(); ++cell)
         for (unsigned int corner = 0; corner < of_cells[cell].size(); ++corner)
@@ -300,10 +301,11 @@ namespace plumbline::reference
     }
   } // namespace
 
-  std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space)
+  std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space,
+                                  unsigned int component)
   {
     if (space.shapes().is_trilinear())
-      return tested_on_hexahedra(load, space);
+      return tested_on_hexahedra(load, space, component);
     const TetrahedralMesh &mesh = space.mesh();
     const dealii::Quadrature<3> &rule = simplex_rule();
     const auto of_cells = for_cells<4>(
@@ -318,7 +320,7 @@ namespace plumbline::reference
             dealii::Tensor<1, 3> x;
             for (unsigned int corner = 0; corner < 4; ++corner)
               x += phi[corner] * mesh.vertices[mesh.cells[cell][corner]];
-            const double value = jacobian * rule.weight(q) * b(Point<3>(x), 0);
+            const double value = jacobian * rule.weight(q) * b(Point<3>(x), component);
             for (unsigned int corner = 0; corner < 4; ++corner)
               sums[corner] += value * phi[corner];
           }

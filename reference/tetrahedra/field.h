@@ -41,9 +41,10 @@ namespace plumbline::reference
     mutable std::unique_ptr<const geometry::BoxSearch<3>> search_;
   };
 
-  /// ∫ b φ_i of the free unknowns over Ω, by a rule of degree 5 on each cell (along each axis of a
-  /// hexahedron).
-  std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space);
+  /// ∫ b φ_i of the free unknowns and a component of b over Ω, by a rule of degree 5 on each cell
+  /// (along each axis of a hexahedron).
+  std::vector<double> tested_load(const problem::Field<3> &load, const TetrahedralSpace &space,
+                                  unsigned int component = 0);
 
   /// A quarter of the tetrahedra around each free vertex, an eighth of the hexahedra, or the free
   /// cells. [length^3]

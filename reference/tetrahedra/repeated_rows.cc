@@ -41,7 +41,8 @@ namespace plumbline::reference
 
   RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, TetrahedralShapes shapes,
                              const FaceRule &rule, FaceRuleUse *use)
-      : shapes_(shapes), n_layers_(geometry::layers_within(kernel.horizon(), h))
+      : shapes_(shapes), n_components_(kernel.n_components()),
+        n_layers_(geometry::layers_within(kernel.horizon(), h))
   {
     const double side = shapes.is_continuous ? 2 * h : h; // with one free vertex, or six free cells
     const geometry::CubeLattice lattice(
@@ -64,12 +65,14 @@ namespace plumbline::reference
                                  of_dof[space.dof_at(places.number(at, type))] = {
                                      {at[0] - own, at[1] - own, at[2] - own}, type, 0};
                              });
-    rows_.resize(places.n_types());
+    const unsigned int n = n_components_;
+    rows_.resize(n * places.n_types());
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (std::size_t k = matrix.start[row]; k < matrix.start[row + 1]; ++k)
       {
-        rows_[of_dof[row].type].push_back(of_dof[matrix.column[k]]);
-        rows_[of_dof[row].type].back().value = matrix.value[k];
+        const auto &[offset, type, _] = of_dof[matrix.column[k] / n];
+        rows_[n * of_dof[row / n].type + row % n].push_back(
+            {offset, n * type + matrix.column[k] % n, matrix.value[k]});
       }
     make_symmetric();
   }
@@ -93,6 +96,7 @@ namespace plumbline::reference
                                       const geometry::CubeLattice &lattice) const
   {
     const Places places(lattice, n_layers_, shapes_);
+    const unsigned int n = n_components_;
     algebra::CsrMatrix matrix;
     matrix.start.push_back(0);
     std::vector<std::pair<unsigned int, double>> sorted;
@@ -100,9 +104,11 @@ namespace plumbline::reference
     {
       sorted.clear();
       for (const auto &[offset, type, value] : row)
-        sorted.emplace_back(space.dof_at(places.number(
-                                {at[0] + offset[0], at[1] + offset[1], at[2] + offset[2]}, type)),
-                            value);
+        sorted.emplace_back(
+            n * space.dof_at(places.number(
+                    {at[0] + offset[0], at[1] + offset[1], at[2] + offset[2]}, type / n)) +
+                type % n,
+            value);
       std::sort(sorted.begin(), sorted.end());
       for (const auto &[column, value] : sorted)
       {
@@ -117,7 +123,8 @@ namespace plumbline::reference
                              {
                                for (std::size_t type = 0; type < places.n_types(); ++type)
                                  if (space.dof_at(places.number(at, type)) < space.n_free())
-                                   add_row(at, rows_[type]);
+                                   for (unsigned int a = 0; a < n; ++a)
+                                     add_row(at, rows_[n * type + a]);
                              });
     return matrix;
   }

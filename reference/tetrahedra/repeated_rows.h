@@ -28,13 +28,14 @@ namespace plumbline::reference
     struct Entry
     {
       std::array<int, 3> offset{};
-      std::size_t type = 0; ///< of a cube's cell
+      std::size_t type = 0; ///< of a cube's cell, and of the component
       double value = 0;
     };
 
     void make_symmetric();
 
     TetrahedralShapes shapes_;
+    unsigned int n_components_;
     int n_layers_;
     std::vector<std::vector<Entry>> rows_; ///< by type
   };

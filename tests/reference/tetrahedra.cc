@@ -344,7 +344,6 @@ TEST(TetrahedralEntries, are_refused_for_kernels_without_potentials)
   EXPECT_EQ(refused("constant", {{1, 0}}), "");
   EXPECT_EQ(refused("1/r", {{1, -1}}), "");
   EXPECT_NE(refused("1/r", {{1, -2}}).find("1/r"), std::string::npos);
-  EXPECT_NE(refused("bond-tensor", {{1, -1}}).find("scalar kernels"), std::string::npos);
   EXPECT_EQ(refused("constant", physics::RadialProfile::smooth(
                                     [](double t) { return std::exp(-t * t); }, true)),
             "");
