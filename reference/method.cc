@@ -73,8 +73,14 @@ namespace plumbline::reference
         if (all.count(Capability::space) == 0)
           return all;
         if (n_vertices_ == 3)
-          return {Capability::lattice, Capability::meshes, Capability::triangles,
-                  Capability::nonlocal, Capability::space};
+        {
+          method::Capabilities some = {Capability::lattice, Capability::meshes,
+                                       Capability::triangles, Capability::nonlocal,
+                                       Capability::space};
+          if (is_continuous_ || degree_ == 0)
+            some.insert(Capability::dilatation);
+          return some;
+        }
         if (!is_on_hexahedra())
           all.erase(Capability::quadrilaterals);
         return all;

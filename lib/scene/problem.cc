@@ -177,10 +177,10 @@ namespace plumbline::scene
           mesh ? geometry::centroid_nodes(*mesh)
                : make_cells_in_space(scene, level, given.lattice));
     if (const double perturbation = scene.methods.nodes.perturbation; perturbation > 0)
-      given.make_tetrahedra =
-          [lattice = given.lattice, level, perturbation, seed = scene.geometry.seed]
+      given.make_tetrahedra = [lattice = given.lattice, level, reach = given.reach(), perturbation,
+                               seed = scene.geometry.seed]
       {
-        const int n_layers = geometry::layers_within(level.horizon, level.h);
+        const int n_layers = geometry::layers_within(reach, level.h);
         return geometry::with_moved_vertices(geometry::six_per_cube(lattice, n_layers),
                                              perturbation * level.h, seed);
       };

@@ -4,6 +4,7 @@
 #include "reference/tetrahedra/exact_pairs.h"
 #include "reference/tetrahedra/jump_assembly.h"
 #include "reference/tetrahedra/lattice_faces.h"
+#include "reference/tetrahedra/solid_kernel.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -175,14 +176,14 @@ namespace plumbline::reference
     class FaceIntegrals
     {
     public:
-      /// @param kernel  one of FacePotential::scalar_parts()
+      /// @param kernel  a part of a SolidKernel
       /// @param largest_jump  of each face
       /// @param size_of_pair  by which round-off is measured [1]
-      FaceIntegrals(const physics::Kernel<3> &kernel, FacePotential::Kind kind,
+      /// @param spacing  of a lattice, or 0 [reaches]
+      FaceIntegrals(const PotentialKernel &kernel, FacePotential::Kind kind,
                     const SortedFaces &faces, const std::vector<double> &largest_jump,
-                    const FaceRule &rule, double size_of_pair)
-          : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind),
-            spacing_(rule.spacing / kernel.horizon())
+                    const FaceRule &rule, double spacing, double size_of_pair)
+          : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind), spacing_(spacing)
       {
         if (rule.is_exact)
           exact_.emplace(kernel, kind, rule.tolerance * size_of_pair);
@@ -276,7 +277,7 @@ namespace plumbline::reference
       const SortedFaces &faces_;
       const std::vector<double> &largest_jump_;
       FacePotential potential_;
-      double spacing_; ///< [horizons]
+      double spacing_; ///< [reaches]
       std::optional<FacePairs> by_rule_;
       std::optional<ExactPairs> exact_;
       mutable std::map<FacePlaces, ExactPairs::Integral> known_;
@@ -284,7 +285,7 @@ namespace plumbline::reference
     };
 
     /// What a pair of faces adds to an entry, besides their jumps.
-    /// @param parts  the integral of each of FacePotential::scalar_parts()
+    /// @param parts  the integral of each part of a SolidKernel
     void add_pair(double &sum, double jump, bool is_continuous, const SpaceFace &f,
                   const SpaceFace &g, const std::array<double, 2> &parts)
     {
@@ -311,9 +312,9 @@ namespace plumbline::reference
     class FaceRows
     {
     public:
-      FaceRows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel, std::size_t n_rows,
+      FaceRows(const TetrahedralSpace &space, const SolidKernel &kernel, std::size_t n_rows,
                const FaceRule &rule)
-          : space_(space), n_rows_(n_rows), faces_(space, kernel.horizon()), search_(faces_.boxes())
+          : space_(space), n_rows_(n_rows), faces_(space, kernel.reach), search_(faces_.boxes())
       {
         for (const SpaceFace &face : faces_.faces())
         {
@@ -328,9 +329,10 @@ namespace plumbline::reference
         }
         const FacePotential::Kind kind =
             space.is_continuous() ? FacePotential::Kind::biharmonic : FacePotential::Kind::harmonic;
-        for (const physics::Kernel<3> &part : FacePotential::scalar_parts(kernel))
+        for (const PotentialKernel &part : kernel.parts)
           integrals_.push_back(std::make_unique<const FaceIntegrals>(
-              part, kind, faces_, largest_jump_, rule, size_of_pair(kernel)));
+              part, kind, faces_, largest_jump_, rule, rule.spacing / kernel.reach,
+              kernel.m0 * volume_of_pair()));
       }
 
       const std::vector<SpaceFace> &faces() const { return faces_.faces(); }
@@ -377,12 +379,11 @@ namespace plumbline::reference
       }
 
     private:
-      /// m₀ times a volume, and divided by jumps.
-      double size_of_pair(const physics::Kernel<3> &kernel) const
+      /// What m₀ is multiplied by in a diagonal entry, divided by jumps. [reach^3]
+      double volume_of_pair() const
       {
-        const double m0 = 4 * M_PI * kernel.profile().moment(2);
-        return m0 * (space_.is_continuous() ? std::pow(faces_.volume_of_vertex(), 5. / 3)
-                                            : faces_.volume_of_cell());
+        return space_.is_continuous() ? std::pow(faces_.volume_of_vertex(), 5. / 3)
+                                      : faces_.volume_of_cell();
       }
 
       /// Faces that may be partners of one of a block.
@@ -611,11 +612,10 @@ namespace plumbline::reference
     }
 
     template <class Value>
-    algebra::CsrMatrix assemble(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
+    algebra::CsrMatrix assemble(const TetrahedralSpace &space, const SolidKernel &kernel,
                                 std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use)
     {
       const FaceRows<Value> of_face(space, kernel, n_rows, rule);
-      const double horizon = kernel.horizon();
       const std::vector<std::size_t> &blocks = of_face.blocks();
       DofRows<Value> sums(of_face.faces(), space.n_dofs(), n_rows);
       std::mutex mutex;
@@ -647,14 +647,14 @@ namespace plumbline::reference
         sums.add_faces(of_faces, blocks[first], blocks[last]);
       }
       std::vector<Row<Value>> rows = sums.symmetric();
-      // lengths of ∬γ in horizons: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
-      double unit = kernel.constant() * std::pow(horizon, 6);
+      // lengths of ∬γ in reaches: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
+      double unit = kernel.constant * std::pow(kernel.reach, 6);
       if (space.is_continuous())
       {
-        unit *= horizon * horizon;
+        unit *= kernel.reach * kernel.reach;
         std::array<double, 2> factors{};
         for (std::size_t part = 0; part < of_face.n_parts(); ++part)
-          factors[part] = of_face.diffusion(part) / std::pow(horizon, 3);
+          factors[part] = of_face.diffusion(part) / std::pow(kernel.reach, 3);
         add_local(space, factors, rows);
       }
       if (use != nullptr)
@@ -668,13 +668,14 @@ namespace plumbline::reference
 
   algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,
                                        const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                       const FaceRule &rule, FaceRuleUse *use)
+                                       const FaceRule &rule, FaceRuleUse *use,
+                                       const std::optional<physics::Dilatation<3>> &dilatation)
   {
     if (!space.is_continuous() && space.degree() == 1)
       return assemble_with_jumps(space, kernel, n_rows, rule, use);
-    return kernel.structure() == physics::Structure::scalar
-               ? assemble<double>(space, kernel, n_rows, rule, use)
-               : assemble<Block>(space, kernel, n_rows, rule, use);
+    const SolidKernel parts(kernel, dilatation);
+    return parts.parts.size() == 1 ? assemble<double>(space, parts, n_rows, rule, use)
+                                   : assemble<Block>(space, parts, n_rows, rule, use);
   }
 
   double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b)

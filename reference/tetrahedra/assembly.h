@@ -1,8 +1,10 @@
 #pragma once
 
 #include "algebra/csr_matrix.h"
-#include "physics/kernel.h"
+#include "physics/state_based.h"
 #include "reference/tetrahedra/space.h"
+
+#include <optional>
 
 namespace plumbline::reference
 {
@@ -48,16 +50,17 @@ namespace plumbline::reference
 
   /// Rows ½∬C(x - y) (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) of unknowns i = 0 ... n_rows - 1 by all
   /// unknowns j, in the units of the kernel, by the faces of cells: see FacePotential. Bond tensors
-  /// have three rows and three columns for each unknown, one after another. Entries are
-  /// exact to round-off, or up to the quadrature over pairs of faces; all else is exact, so that
-  /// rows annihilate constants, and those of continuous functions linear fields, to round-off.
-  /// Symmetric to the last bit. Linear functions that are not continuous: assemble_with_jumps(),
-  /// for scalar kernels.
-  /// @pre  rows of unknowns whose supports are a horizon or more from the outside of the mesh; a
-  /// kernel that FacePotential takes
-  algebra::CsrMatrix assemble_by_faces(const TetrahedralSpace &space,
-                                       const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                       const FaceRule &rule, FaceRuleUse *use = nullptr);
+  /// have three rows and three columns for each unknown, one after another; f ∫θ_i θ_j of a
+  /// homogeneous dilatation is added to them. Entries are exact to round-off, or up to the
+  /// quadrature over pairs of faces; all else is exact, so that rows annihilate constants, and
+  /// those of continuous functions linear fields, to round-off. Symmetric to the last bit. Linear
+  /// functions that are not continuous: assemble_with_jumps(), for scalar kernels.
+  /// @pre  rows of unknowns whose supports are the reach of the kernel (with a dilatation two
+  /// horizons) or more from the outside of the mesh; a kernel that FacePotential takes
+  algebra::CsrMatrix
+  assemble_by_faces(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
+                    std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use = nullptr,
+                    const std::optional<physics::Dilatation<3>> &dilatation = {});
 
   /// The largest difference of two entries in rows that both have, relative to the largest entry
   /// there; NaN if an entry is.

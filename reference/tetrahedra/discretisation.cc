@@ -168,7 +168,7 @@ namespace plumbline::reference
       {
         if (is_of_cubes_)
           return geometry::six_per_cube(lattice_,
-                                        geometry::layers_within(problem.horizon(), problem.h()));
+                                        geometry::layers_within(problem.reach(), problem.h()));
         if (problem.mesh && shapes.is_on_hexahedra)
           return *problem.mesh;
         constexpr std::size_t n_first = 4; // cells, which have at least as many vertices
@@ -282,9 +282,12 @@ namespace plumbline::reference
         double change = 0; // of entries, relative to the diagonal
         if (is_of_cubes_)
         {
-          const RepeatedRows rows(problem.kernel, problem.h(), shapes, exact, &use);
+          const RepeatedRows rows(problem.kernel, problem.h(), shapes, exact, &use,
+                                  problem.dilatation);
           matrix = rows.on(*space_, lattice_);
-          change = RepeatedRows(problem.kernel, problem.h(), shapes, check).difference(rows);
+          change =
+              RepeatedRows(problem.kernel, problem.h(), shapes, check, nullptr, problem.dilatation)
+                  .difference(rows);
         }
         else
         {
@@ -293,9 +296,11 @@ namespace plumbline::reference
           check.tolerance = of_meshes;
           exact.of_jumps *= 10;
           check.of_jumps *= 10;
-          matrix = assemble_by_faces(*space_, problem.kernel, space_->n_free(), exact, &use);
-          change =
-              difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check), matrix);
+          matrix = assemble_by_faces(*space_, problem.kernel, space_->n_free(), exact, &use,
+                                     problem.dilatation);
+          change = difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check,
+                                                nullptr, problem.dilatation),
+                              matrix);
         }
         constexpr double most_error = 1e-10;
         const double most_change = has_jumps ? 1e-3 : .25;
@@ -417,7 +422,9 @@ namespace plumbline::reference
     constexpr double of_block = 136, grown = 1.5, n_at_once = 256, n_of_cube = 18;
     const double of_face = of_block * grown * n_columns / shapes.n_per_cell(),
                  of_lattice_faces = has_jumps ? n_of_cube * of_face : 0,
-                 of_scattered_faces = has_jumps ? n_at_once * of_face : 6e7,
+                 of_scattered_faces = has_jumps                ? n_at_once * of_face
+                                      : size.n_components == 1 ? 6e7
+                                                               : 1e8,
                  of_faces = size.is_scattered ? of_scattered_faces : of_lattice_faces;
     return n_cubes * n_types * n_columns * std::pow(size.n_components, 2) * of_entry +
            n_all * 6 * of_cell + of_faces + n_pairs * of_pair;

@@ -408,11 +408,10 @@ namespace plumbline::reference
     t.face = nullptr;
   }
 
-  ExactPairs::ExactPairs(const physics::Kernel<3> &kernel, FacePotential::Kind kind,
-                         double tolerance)
+  ExactPairs::ExactPairs(const PotentialKernel &kernel, FacePotential::Kind kind, double tolerance)
       : tolerance_(tolerance)
   {
-    const auto terms = FacePotential::terms(kernel);
+    const std::vector<PotentialTerms> &terms = kernel.terms;
     const int order = kind == FacePotential::Kind::harmonic ? 1 : 3;
     parts_ = std::make_unique<const Parts>(
         Parts{make_parts<double>(terms, order), make_parts<long double>(terms, order),

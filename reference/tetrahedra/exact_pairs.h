@@ -22,9 +22,8 @@ namespace plumbline::reference
   class ExactPairs
   {
   public:
-    /// @param kernel  one that FacePotential takes
     /// @param tolerance  of one integral's round-off [1]
-    ExactPairs(const physics::Kernel<3> &kernel, FacePotential::Kind kind, double tolerance);
+    ExactPairs(const PotentialKernel &kernel, FacePotential::Kind kind, double tolerance);
     ~ExactPairs();
 
     struct Integral

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace plumbline::reference
 {
@@ -39,39 +38,18 @@ namespace plumbline::reference
     }
   } // namespace
 
-  FacePotential::FacePotential(const physics::Kernel<3> &kernel, Kind kind)
+  PotentialKernel::PotentialKernel(const physics::Kernel<3> &kernel)
+      : terms(FacePotential::terms(kernel)), second(kernel.profile().moment(2)),
+        fourth(kernel.profile().moment(4))
   {
-    constexpr double share_of_second_moment = 2 * M_PI / 3;
-    diffusion_ = share_of_second_moment * kernel.profile().moment(4);
-    for (const PotentialTerms &part : terms(kernel))
-      parts_.emplace_back(part, kind == Kind::harmonic ? 1 : 3);
   }
 
-  std::vector<physics::Kernel<3>> FacePotential::scalar_parts(const physics::Kernel<3> &kernel)
+  FacePotential::FacePotential(const PotentialKernel &kernel, Kind kind)
   {
-    if (kernel.structure() == physics::Structure::scalar)
-      return {kernel};
-    std::map<int, double> isotropic, directional; // coefficients by exponent: q and w
-    for (const auto &[coefficient, exponent] : kernel.profile().powers())
-    {
-      if (coefficient == 0)
-        continue;
-      const double share = coefficient / exponent;
-      isotropic[0] += share;
-      isotropic[exponent] -= share;
-      directional[exponent] += coefficient;
-    }
-    for (const auto &[exponent, coefficient] : isotropic)
-      directional[exponent] -= 3 * coefficient;
-    const auto make = [&kernel](const std::map<int, double> &coefficients)
-    {
-      physics::RadialProfile::Powers powers;
-      for (const auto &[exponent, coefficient] : coefficients)
-        powers.push_back({coefficient, exponent});
-      return physics::Kernel<3>(physics::Structure::scalar, powers, kernel.horizon(),
-                                kernel.constant());
-    };
-    return {make(isotropic), make(directional)};
+    constexpr double share_of_second_moment = 2 * M_PI / 3;
+    diffusion_ = share_of_second_moment * kernel.fourth;
+    for (const PotentialTerms &part : kernel.terms)
+      parts_.emplace_back(part, kind == Kind::harmonic ? 1 : 3);
   }
 
   std::vector<PotentialTerms> FacePotential::terms(const physics::Kernel<3> &kernel)

@@ -8,6 +8,18 @@
 
 namespace plumbline::reference
 {
+  /// A radial profile that FacePotential turns into a potential. Lengths are in reaches, beyond
+  /// which it is 0.
+  struct PotentialKernel
+  {
+    PotentialKernel() = default;
+    /// That of a scalar kernel, whose reach is its horizon. @pre  FacePotential::refuse() is empty
+    PotentialKernel(const physics::Kernel<3> &kernel); // NOLINT: a kernel is one
+
+    std::vector<PotentialTerms> terms; ///< they add up
+    double second = 0, fourth = 0;     ///< ∫ t² γ dt and ∫ t⁴ γ dt
+  };
+
   /// The radial functions that turn double integrals of a scalar kernel over tetrahedra into double
   /// integrals over their faces. Lengths are in horizons, and γ = ρ(r) for r < 1 and 0 beyond. With
   ///   r Λ = ∫_r^1 t γ (t - r) dt,      ΔΛ = γ - m₀ δ,
@@ -29,19 +41,7 @@ namespace plumbline::reference
       biharmonic, ///< Ψ
     };
 
-    /// @param kernel  a scalar one, see refuse()
-    FacePotential(const physics::Kernel<3> &kernel, Kind kind);
-
-    /// The scalar kernels that a bond tensor γ ê⊗ê (ê = ξ/r) is made of, both with its constant:
-    ///   q = ∫_r^1 γ/t dt and w = γ - 3 q,
-    /// since γ ê⊗ê = q I + ∇∇G with G = ∫_r^1 t q dt, whose ΔG is w. G is Λ of w, and the Λ of G
-    /// is Ψ of w, so that in place of the sums above (blocks of components a, b)
-    ///   ½∬γ ê⊗ê (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) = Σ_F Σ_G [n_i·n_j I ∬Λ_q + n_i⊗n_j ∬Λ_w]
-    ///     = κ_q ∫∇φ_i·∇φ_j I + κ_w ∫∇φ_i⊗∇φ_j
-    ///       - Σ_F Σ_G J_i(F) J_j(G) [I ∬Ψ_q + n_F·n_G n_F⊗n_G ∬Ψ_w].
-    /// A scalar kernel is its only part.
-    /// @pre  refuse() is empty
-    static std::vector<physics::Kernel<3>> scalar_parts(const physics::Kernel<3> &kernel);
+    FacePotential(const PotentialKernel &kernel, Kind kind);
 
     /// Why there is no such function of a kernel, and the remedy; empty: there is.
     static std::string refuse(const physics::Kernel<3> &kernel);

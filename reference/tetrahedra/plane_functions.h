@@ -59,8 +59,8 @@ namespace plumbline::reference
 
     /// Gauss points that series take besides those of powers, on a piece of this length.
     unsigned int extra_points(double length) const;
-    /// The round-off of compact H, in units of Real's, where it is not that of a value: series have
-    /// that of their largest terms.
+    /// The round-off of compact H, in units of Real's, where it is not that of a value: series, and
+    /// powers that cancel, have that of their largest terms.
     Real size_of_compact(const Real &r) const;
     /// The same of κ ∫ H / (κ² + τ²) dτ, r² = κ² + τ² + height.
     Real size_of_piece(const Real &kappa, const Real &from, const Real &to,
@@ -75,6 +75,7 @@ namespace plumbline::reference
 
   private:
     void set_powers(const PotentialTerms &kernel);
+    void set_size_of_powers();
     void set_series(const PotentialTerms &kernel);
 
     Real end_;
@@ -85,7 +86,7 @@ namespace plumbline::reference
     RadialPolynomial<Real> compact_;
     Real moments_[3] = {};
     std::vector<unsigned int> degrees_;
-    Real compact_size_ = 0, growth_ = 1;
+    Real compact_size_ = 0, growth_ = 1; ///< sizes of values say all if it is 0
   };
 
   template <class Real>
@@ -179,6 +180,7 @@ namespace plumbline::reference
             factor * power_of_end(k + 1 - j) * factorial(k + 1) * factorial(p + k + 1 - j) /
                 (factorial(k + 1 - j) * factorial(p) * factorial(p + k + 2)));
     }
+    set_size_of_powers();
     for (std::size_t j = 0; j < potential_.c.size(); ++j)
     {
       const int n = static_cast<int>(j);
@@ -189,6 +191,25 @@ namespace plumbline::reference
       for (int l = 0; l < 3; ++l)
         moments_[l] += power * power_of_end(n + l + 1) / Real(n + l + 1);
     }
+  }
+
+  template <class Real>
+  void PotentialPart<Real>::set_size_of_powers()
+  {
+    using std::abs;
+    constexpr int n_samples = 16;
+    constexpr double usual = 32; // round-off that other terms have, too
+    Real size = 0, power = 1;
+    for (const Real &coefficient : compact_.c)
+    {
+      size += abs(coefficient) * power;
+      power *= end_;
+    }
+    Real least = size;
+    for (int k = 0; k <= n_samples; ++k)
+      least = std::min(least, Real(abs(compact_(end_ * k / n_samples))));
+    if (size > usual * least)
+      compact_size_ = size;
   }
 
   template <class Real>
@@ -245,7 +266,7 @@ namespace plumbline::reference
   template <class Real>
   Real PotentialPart<Real>::size_of_compact(const Real &r) const
   {
-    if (degrees_.empty() || !(r < end_) || !(r > 0))
+    if (compact_size_ == 0 || !(r < end_) || !(r > 0))
       return 0;
     const Real x = end_ - r, x2 = x * x;
     return compact_size_ * (x2 * x2 * x) * (order_ == 3 ? x2 : Real(1)) / (r * r);
@@ -257,7 +278,7 @@ namespace plumbline::reference
   {
     using std::abs;
     using std::sqrt;
-    if (degrees_.empty())
+    if (compact_size_ == 0)
       return 0;
     constexpr double most_angle = 3.15;
     const Real nearest = std::max({Real(0), from, Real(-to)}),

@@ -40,9 +40,10 @@ namespace plumbline::reference
   } // namespace
 
   RepeatedRows::RepeatedRows(const physics::Kernel<3> &kernel, double h, TetrahedralShapes shapes,
-                             const FaceRule &rule, FaceRuleUse *use)
+                             const FaceRule &rule, FaceRuleUse *use,
+                             const std::optional<physics::Dilatation<3>> &dilatation)
       : shapes_(shapes), n_components_(kernel.n_components()),
-        n_layers_(geometry::layers_within(kernel.horizon(), h))
+        n_layers_(geometry::layers_within((dilatation ? 2 : 1) * kernel.horizon(), h))
   {
     const double side = shapes.is_continuous ? 2 * h : h; // with one free vertex, or six free cells
     const geometry::CubeLattice lattice(
@@ -55,7 +56,7 @@ namespace plumbline::reference
     FaceRule of_lattice = rule;
     of_lattice.spacing = h;
     const algebra::CsrMatrix matrix =
-        assemble_by_faces(space, kernel, places.n_types(), of_lattice, use);
+        assemble_by_faces(space, kernel, places.n_types(), of_lattice, use, dilatation);
 
     std::vector<Entry> of_dof(space.n_dofs());
     geometry::for_each_index({0, 0, 0}, places.n(),

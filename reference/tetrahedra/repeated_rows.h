@@ -12,10 +12,11 @@ namespace plumbline::reference
   public:
     /// Symmetric to the last bit.
     RepeatedRows(const physics::Kernel<3> &kernel, double h, TetrahedralShapes shapes,
-                 const FaceRule &rule, FaceRuleUse *use = nullptr);
+                 const FaceRule &rule, FaceRuleUse *use = nullptr,
+                 const std::optional<physics::Dilatation<3>> &dilatation = {});
 
     /// Those of the free unknowns.
-    /// @param space  on geometry::six_per_cube(lattice, layers_within(horizon, h)), of the same
+    /// @param space  on geometry::six_per_cube(lattice, layers_within(reach, h)), of the same
     /// kind
     algebra::CsrMatrix on(const TetrahedralSpace &space,
                           const geometry::CubeLattice &lattice) const;

@@ -388,7 +388,8 @@ TEST(ManyPairs, of_a_series_are_those_of_powers_and_those_with_all_digits)
       }
       if (powers.is_empty())
         continue;
-      const ExactPairs by_powers({physics::Structure::scalar, powers, 1, 1}, kind, tolerance);
+      const ExactPairs by_powers(physics::Kernel<3>(physics::Structure::scalar, powers, 1, 1), kind,
+                                 tolerance);
       EXPECT_NEAR(value, by_powers(faces.front(), faces[k]).value, tolerance + 1e-15 * largest)
           << name << " " << k;
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 
 namespace
@@ -48,6 +49,42 @@ namespace
     return {std::make_shared<const TetrahedralMesh>(mesh), is_continuous};
   }
 
+  struct Solid
+  {
+    physics::Kernel<3> bonds;
+    std::optional<physics::Dilatation<3>> dilatation = {};
+
+    double reach() const { return bonds.horizon() * (dilatation ? 2 : 1); }
+  };
+
+  Solid bond_based(const RadialProfile &profile, double horizon)
+  {
+    return {{Structure::tensor, profile, horizon, 1}};
+  }
+
+  /// @param lambda  mu is 1
+  Solid state_based(const RadialProfile &profile, double horizon, double lambda)
+  {
+    const auto influence = physics::influence_function<3>(profile, horizon);
+    return {physics::deviatoric_kernel(influence, 1),
+            physics::Dilatation<3>{influence,
+                                   [lambda](const Point<3> &) {
+                                     return physics::Lame{lambda, 1};
+                                   },
+                                   false, true}};
+  }
+
+  /// All solids that reach this far.
+  std::vector<Solid> solids(double reach)
+  {
+    std::vector<Solid> all;
+    for (const RadialProfile &profile : profiles)
+      all.push_back(bond_based(profile, reach));
+    all.push_back(state_based(profiles[0], reach / 2, 3));
+    all.push_back(state_based(profiles[2], reach / 2, -.5));
+    return all;
+  }
+
   /// Rows of a node.
   Blocks blocks(const algebra::CsrMatrix &matrix, std::size_t node)
   {
@@ -59,24 +96,23 @@ namespace
   }
 
   /// @param spacing  of a lattice with the vertices, or 0
-  algebra::CsrMatrix exact_rows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
+  algebra::CsrMatrix exact_rows(const TetrahedralSpace &space, const Solid &solid,
                                 std::size_t n_rows, double spacing = 0)
   {
     FaceRule rule = FaceRule::exact();
     rule.spacing = spacing;
-    return assemble_by_faces(space, kernel, n_rows, rule);
+    return assemble_by_faces(space, solid.bonds, n_rows, rule, nullptr, solid.dilatation);
   }
 } // namespace
 
 TEST(TensorEntries, of_the_cells_of_cubes_add_up_to_exact_ones_of_cubes)
 {
-  const double horizon = 1.7;
+  const double reach = 1.7;
   const TetrahedralSpace space = space_of(mesh_of_cubes(1, 2), false);
-  for (const RadialProfile &profile : profiles)
+  for (const Solid &solid : solids(reach))
   {
-    const physics::Kernel<3> kernel(Structure::tensor, profile, horizon, 1);
-    const auto stencil = galerkin_stencil(kernel, 1, AxisShapes(false, 0));
-    const auto matrix = exact_rows(space, kernel, 6, 1);
+    const auto stencil = galerkin_stencil(solid.bonds, 1, AxisShapes(false, 0), solid.dilatation);
+    const auto matrix = exact_rows(space, solid, 6, 1);
     std::map<std::array<int, 3>, Block> sums;
     for (std::size_t cell = 0; cell < 6; ++cell)
       for (const auto &[other, block] : blocks(matrix, cell))
@@ -99,13 +135,12 @@ TEST(TensorEntries, of_the_cells_of_cubes_add_up_to_exact_ones_of_cubes)
 TEST(TensorEntries, of_layers_of_cubes_are_those_of_trilinear_functions)
 {
   // both spaces have the piecewise linear functions of one coordinate
-  const double horizon = 1.7;
+  const double reach = 1.7;
   const TetrahedralSpace space = space_of(mesh_of_cubes(2, 3), true);
-  for (const RadialProfile &profile : profiles)
+  for (const Solid &solid : solids(reach))
   {
-    const physics::Kernel<3> kernel(Structure::tensor, profile, horizon, 1);
-    const auto stencil = galerkin_stencil(kernel, 1, AxisShapes(true, 1));
-    const auto rows = blocks(exact_rows(space, kernel, 1, 1), 0);
+    const auto stencil = galerkin_stencil(solid.bonds, 1, AxisShapes(true, 1), solid.dilatation);
+    const auto rows = blocks(exact_rows(space, solid, 1, 1), 0);
     for (unsigned int axis = 0; axis < 3; ++axis)
       for (int layer = 0; layer <= 3; ++layer)
       {
@@ -137,8 +172,8 @@ TEST(TensorEntries, have_the_trace_of_scalar_kernels_and_annihilate_linear_field
     const TetrahedralSpace space = space_of(moved_mesh(2, 3, .2), is_continuous);
     for (const RadialProfile &profile : profiles)
     {
-      const auto rows = blocks(exact_rows(space, {Structure::tensor, profile, horizon, 1}, 1), 0);
-      const auto scalar = exact_rows(space, {Structure::scalar, profile, horizon, 1}, 1);
+      const auto rows = blocks(exact_rows(space, bond_based(profile, horizon), 1), 0);
+      const auto scalar = exact_rows(space, {{Structure::scalar, profile, horizon, 1}}, 1);
       std::map<unsigned int, double> traces;
       Block sum;
       dealii::Tensor<3, 3> first;
@@ -167,7 +202,8 @@ TEST(TensorEntries, have_the_trace_of_scalar_kernels_and_annihilate_linear_field
 TEST(TensorEntries, are_those_of_product_rules_where_cells_are_apart_and_within_the_horizon)
 {
   const double horizon = 5;
-  const physics::Kernel<3> kernel(Structure::tensor, profiles[2], horizon, 1);
+  const Solid solid = bond_based(profiles[2], horizon);
+  const physics::Kernel<3> &kernel = solid.bonds;
   const TetrahedralMesh mesh = moved_mesh(1, 5, .2);
   const TetrahedralSpace space = space_of(mesh, false);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
@@ -180,7 +216,7 @@ TEST(TensorEntries, are_those_of_product_rules_where_cells_are_apart_and_within_
   std::vector<std::size_t> cell_of(space.n_dofs());
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
     cell_of[space.dof(cell, 0)] = cell;
-  const auto rows = blocks(exact_rows(space, kernel, 1), 0);
+  const auto rows = blocks(exact_rows(space, solid, 1), 0);
   const double diagonal = rows.at(0)[0][0];
   unsigned int n_compared = 0;
   for (const auto &[other, block] : rows)
@@ -208,51 +244,53 @@ TEST(TensorEntries, are_those_of_product_rules_where_cells_are_apart_and_within_
 
 TEST(TensorEntries, turn_with_the_mesh_and_are_symmetric_to_the_last_bit)
 {
-  const double horizon = 1.3, angle = .7;
-  const physics::Kernel<3> kernel(Structure::tensor, profiles[0], horizon, 1);
+  const double reach = 1.3, angle = .7;
   const TetrahedralMesh mesh = moved_mesh(3, 3, .2);
   const Block turn = dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
       dealii::Tensor<1, 3>({1 / 3., 2 / 3., -2 / 3.}), angle);
   TetrahedralMesh turned = mesh;
   for (Point<3> &x : turned.vertices)
     x = Point<3>(turn * x);
-  for (const bool is_continuous : {true, false})
-  {
-    constexpr std::size_t n_rows = 3;
-    const auto matrix = exact_rows(space_of(mesh, is_continuous), kernel, n_rows),
-               of_turned = exact_rows(space_of(turned, is_continuous), kernel, n_rows);
-    std::vector<Blocks> rows;
-    double worst = 0;
-    for (std::size_t node = 0; node < n_rows; ++node)
+  for (const Solid &solid :
+       {bond_based(profiles[0], reach), state_based(profiles[0], reach / 2, 3)})
+    for (const bool is_continuous : {true, false})
     {
-      rows.push_back(blocks(matrix, node));
-      const Blocks others = blocks(of_turned, node);
-      for (const auto &[other, block] : rows.back())
+      constexpr std::size_t n_rows = 3;
+      const auto matrix = exact_rows(space_of(mesh, is_continuous), solid, n_rows),
+                 of_turned = exact_rows(space_of(turned, is_continuous), solid, n_rows);
+      std::vector<Blocks> rows;
+      double worst = 0;
+      for (std::size_t node = 0; node < n_rows; ++node)
       {
-        const auto found = others.find(other); // all may cancel
-        worst = std::max(worst, (turn * block * transpose(turn) -
-                                 (found == others.end() ? Block() : found->second))
-                                    .norm());
+        rows.push_back(blocks(matrix, node));
+        const Blocks others = blocks(of_turned, node);
+        for (const auto &[other, block] : rows.back())
+        {
+          const auto found = others.find(other); // all may cancel
+          worst = std::max(worst, (turn * block * transpose(turn) -
+                                   (found == others.end() ? Block() : found->second))
+                                      .norm());
+        }
       }
+      EXPECT_LT(worst / rows[0].at(0)[0][0], 1e-12);
+      for (unsigned int i = 0; i < n_rows; ++i)
+        for (unsigned int j = 0; j < n_rows; ++j)
+          EXPECT_TRUE(rows[i].at(j) == Block(transpose(rows[j].at(i)))) << i << j;
     }
-    EXPECT_LT(worst / rows[0].at(0)[0][0], 1e-12);
-    for (unsigned int i = 0; i < n_rows; ++i)
-      for (unsigned int j = 0; j < n_rows; ++j)
-        EXPECT_TRUE(rows[i].at(j) == Block(transpose(rows[j].at(i)))) << i << j;
-  }
 }
 
 TEST(TensorEntries, on_lattices_have_the_moments_of_the_local_limit_and_are_repeated)
 {
-  const double horizon = 1.4;
+  const double reach = 1.4;
   const geometry::CubeLattice lattice({{{Point<3>(), Point<3>(3, 3, 3)}}, {}}, 1);
   const TetrahedralSpace space =
-      space_of(geometry::six_per_cube(lattice, geometry::layers_within(horizon, 1)), true);
-  for (const RadialProfile &profile : profiles)
+      space_of(geometry::six_per_cube(lattice, geometry::layers_within(reach, 1)), true);
+  for (const Solid &solid : solids(reach))
   {
-    const physics::Kernel<3> kernel(Structure::tensor, profile, horizon, 1);
-    const auto all = exact_rows(space, kernel, space.n_free(), 1),
-               repeated = RepeatedRows(kernel, 1, true, FaceRule::exact()).on(space, lattice);
+    const auto all = exact_rows(space, solid, space.n_free(), 1),
+               repeated =
+                   RepeatedRows(solid.bonds, 1, true, FaceRule::exact(), nullptr, solid.dilatation)
+                       .on(space, lattice);
     EXPECT_LT(difference(repeated, all), 1e-12);
     EXPECT_LT(difference(all, repeated), 1e-12);
     dealii::Tensor<4, 3> second; // -½ Σ A_ab ξ_c ξ_d
@@ -261,7 +299,12 @@ TEST(TensorEntries, on_lattices_have_the_moments_of_the_local_limit_and_are_repe
       const dealii::Tensor<1, 3> xi = space.support(node) - space.support(0);
       second -= .5 * outer_product(block, outer_product(xi, xi));
     }
-    const auto [diffusion, mu, lambda] = kernel.limit();
+    double mu = solid.bonds.limit().mu, lambda = solid.bonds.limit().lambda;
+    if (solid.dilatation)
+    {
+      mu = solid.dilatation->material({}).mu;
+      lambda = solid.dilatation->material({}).lambda;
+    }
     const auto same = [](unsigned int a, unsigned int b) { return a == b ? 1. : 0.; };
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
