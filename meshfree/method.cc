@@ -49,7 +49,7 @@ namespace plumbline::meshfree
                "; write automatic, gmres or bicgstab";
       }
 
-      std::string why_not_in_space(const Kernel<3> &kernel, bool) const override
+      std::string why_not_in_space(const Kernel<3> &kernel, bool, bool) const override
       {
         return rule_.is_scalar && kernel.n_components() > 1 ? no_tensors() : "";
       }

@@ -285,7 +285,7 @@ namespace plumbline::python
                             ? " or hexahedra, and this problem is on a mesh of tetrahedra; choose "
                             : ", and this problem is on a mesh of hexahedra; choose Q1, DGQ0, ") +
                        "P1, DGP0, DGP1 or a meshfree rule");
-    if (const std::string why = method->why_not_in_space(problem.kernel, true); !why.empty())
+    if (const std::string why = method->why_not_in_space(problem.kernel, false, true); !why.empty())
       throw InputError("method '" + name + "': " + why);
     return method;
   }

@@ -85,11 +85,14 @@ namespace plumbline::reference
           all.erase(Capability::quadrilaterals);
         return all;
       }
-      std::string why_not_in_space(const physics::Kernel<3> &kernel, bool is_on_mesh) const override
+      std::string why_not_in_space(const physics::Kernel<3> &kernel, bool has_dilatation,
+                                   bool is_on_mesh) const override
       {
-        if (n_vertices_ == 3)
-          return refuse_tetrahedra(kernel, tetrahedral_shapes());
-        return is_on_mesh ? refuse_tetrahedra(kernel, tetrahedral_shapes().on_hexahedra()) : "";
+        if (n_vertices_ != 3 && !is_on_mesh)
+          return "";
+        const TetrahedralShapes shapes =
+            n_vertices_ == 3 ? tetrahedral_shapes() : tetrahedral_shapes().on_hexahedra();
+        return refuse_tetrahedra(kernel, has_dilatation, shapes);
       }
       std::string why_not(const problem::Problem<2> &problem) const override
       {

@@ -54,11 +54,13 @@ namespace plumbline::method
     /// What a scene in space may need of it.
     virtual Capabilities can_in_space() const { return can(); }
 
-    /// Empty if the method can do problems in space with this kernel, on the cells of a mesh or
-    /// not, else the reason that is none of its capabilities.
-    virtual std::string why_not_in_space(const physics::Kernel<3> &, bool is_on_mesh) const
+    /// Empty if the method can do problems in space with this kernel, with a dilatation of its
+    /// profile or not, on the cells of a mesh or not, else the reason that is none of its
+    /// capabilities.
+    virtual std::string why_not_in_space(const physics::Kernel<3> &, bool has_dilatation,
+                                         bool is_on_mesh) const
     {
-      (void)is_on_mesh;
+      (void)has_dilatation, (void)is_on_mesh;
       return {};
     }
 

@@ -123,7 +123,7 @@ namespace plumbline::study
     return why.empty() ? method.why_not_in_space(
                              scene::make_kernel_in_space(
                                  scene, scene.study.series.front().levels.front().horizon),
-                             mesh.is_file())
+                             scene.has_dilatation(), mesh.is_file())
                        : why;
   }
 

@@ -374,19 +374,26 @@ namespace plumbline::reference
     };
   } // namespace
 
-  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, TetrahedralShapes shapes)
+  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, bool has_dilatation,
+                                TetrahedralShapes shapes)
   {
     const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
     if (kernel.structure() == physics::Structure::tensor && (shapes.is_trilinear() || has_jumps))
-      return "bond tensors have entries on tetrahedra and hexahedra by P1, DGP0 and DGQ0; take "
-             "these";
+      return "bond tensors and state-based solids have entries on tetrahedra and hexahedra by P1, "
+             "DGP0 and DGQ0; take these";
+    if (has_dilatation && !FacePotential::has_power_parts(kernel.profile()))
+      return "dilatations have entries on tetrahedra and hexahedra for influence functions that "
+             "are sums of powers of r without a constant; write Kernel/type = 1/r, or polynomial "
+             "with 0 as the coefficient of (r/δ)^0, or take Q1 or DGQ0 on a lattice of cubes";
     return FacePotential::refuse(kernel);
   }
 
   std::unique_ptr<method::DiscretisationInSpace>
   discretise_on_tetrahedra(const problem::Problem<3> &problem, TetrahedralShapes shapes)
   {
-    if (const std::string reason = refuse_tetrahedra(problem.kernel, shapes); !reason.empty())
+    if (const std::string reason =
+            refuse_tetrahedra(problem.kernel, problem.dilatation.has_value(), shapes);
+        !reason.empty())
       throw InputError(reason);
     return std::make_unique<GalerkinOnTetrahedra>(problem, shapes);
   }

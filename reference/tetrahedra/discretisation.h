@@ -7,7 +7,9 @@
 namespace plumbline::reference
 {
   /// Why these functions have no entries of a kernel, and the remedy; empty: they have.
-  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, TetrahedralShapes shapes);
+  /// @param has_dilatation  whose influence function has the kernel's profile
+  std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, bool has_dilatation,
+                                TetrahedralShapes shapes);
 
   /// Functions on the problem's tetrahedra. Entries are exact, see FacePotential; those of linear
   /// functions that are not continuous need quadrature, see assemble_with_jumps().

@@ -24,18 +24,6 @@ namespace plumbline::reference
                          [](const physics::PowerTerm &term)
                          { return term.coefficient != 0 && term.exponent > highest_exponent; });
     }
-
-    /// Whether ∫ρ/t of a bond tensor is a sum of powers, too.
-    bool has_powers_over_t(const physics::RadialProfile &profile)
-    {
-      if (profile.is_function() || !profile.breaks().empty())
-        return false;
-      return std::all_of(profile.powers().begin(), profile.powers().end(),
-                         [](const physics::PowerTerm &term) {
-                           return term.coefficient == 0 ||
-                                  (term.exponent != 0 && term.exponent <= highest_exponent);
-                         });
-    }
   } // namespace
 
   PotentialKernel::PotentialKernel(const physics::Kernel<3> &kernel)
@@ -59,9 +47,7 @@ namespace plumbline::reference
     {
       PotentialTerms part;
       part.series = ProfileSeries(whole).coefficients;
-      constexpr unsigned int n_levels = 8; // of RadialProfile
-      for (unsigned int level = 0; level < n_levels; ++level)
-        part.degrees.push_back(whole.degree(std::ldexp(1., -static_cast<int>(level))) + 1);
+      part.degrees = degrees(whole);
       return {part};
     }
     for (const auto &[end, profile] : kernel.profile().parts())
@@ -72,6 +58,25 @@ namespace plumbline::reference
         part.terms.push_back({coefficient / std::pow(end, exponent), exponent}); // of t / end
       result.push_back(part);
     }
+    return result;
+  }
+
+  bool FacePotential::has_power_parts(const physics::RadialProfile &profile)
+  {
+    return !profile.is_function() && profile.breaks().empty() &&
+           std::all_of(profile.powers().begin(), profile.powers().end(),
+                       [](const physics::PowerTerm &term) {
+                         return term.coefficient == 0 ||
+                                (term.exponent != 0 && term.exponent <= highest_exponent);
+                       });
+  }
+
+  std::vector<unsigned int> FacePotential::degrees(const physics::RadialProfile &profile)
+  {
+    constexpr unsigned int n_levels = 8; // of RadialProfile
+    std::vector<unsigned int> result;
+    for (unsigned int level = 0; level < n_levels; ++level)
+      result.push_back(profile.degree(std::ldexp(1., -static_cast<int>(level))) + 1);
     return result;
   }
 
@@ -124,22 +129,17 @@ namespace plumbline::reference
   std::string FacePotential::refuse(const physics::Kernel<3> &kernel)
   {
     const std::string remedy =
-        "; write Kernel/type = constant, linear-decay, 1/r, polynomial, "
-        "gaussian, exponential or table, or take Q1 or DGQ0 on a lattice of cubes";
+        kernel.structure() == physics::Structure::scalar
+            ? "; write Kernel/type = constant, linear-decay, 1/r, polynomial, "
+              "gaussian, exponential or table, or take Q1 or DGQ0 on a lattice of cubes"
+            : "; write a Kernel/type without table and of at most 1/r at 0, or take Q1 or DGQ0 on "
+              "a lattice of cubes";
     const bool is_tensor = kernel.structure() == physics::Structure::tensor;
-    const std::string remedy_of_tensors =
-        "; write Kernel/type = bond-tensor, or bond-tensor polynomial with 0 as the coefficient of "
-        "(r/δ)^0, or take Q1 or DGQ0 on a lattice of cubes";
     if (kernel.profile().lowest_exponent() < lowest_exponent)
-      return "entries on tetrahedra and hexahedra are for kernels of at most 1/r at 0" +
-             (is_tensor ? remedy_of_tensors : remedy);
-    if (is_tensor)
-      return has_powers_over_t(kernel.profile())
-                 ? ""
-                 : "entries of bond tensors on tetrahedra and hexahedra are for radial profiles "
-                   "that are sums of powers of r without a constant" +
-                       remedy_of_tensors;
-    if (is_series(kernel.profile()))
+      return "entries on tetrahedra and hexahedra are for kernels of at most 1/r at 0" + remedy;
+    if (is_tensor && !kernel.profile().breaks().empty())
+      return "entries of bond tensors on tetrahedra and hexahedra are not for tables" + remedy;
+    if (is_series(kernel.profile()) || (is_tensor && !has_power_parts(kernel.profile())))
       if (const double error = ProfileSeries(kernel.profile()).error; !(error < most_of_series))
         return "128 Chebyshev terms approximate the radial profile only to " +
                base::to_text(error, 1) + " of the kernel's integral; give fewer coefficients";
@@ -148,12 +148,15 @@ namespace plumbline::reference
 
   std::string FacePotential::note(const physics::Kernel<3> &kernel)
   {
-    if (!is_series(kernel.profile()))
+    const bool has_logarithms =
+        kernel.structure() == physics::Structure::tensor && !has_power_parts(kernel.profile());
+    if (!is_series(kernel.profile()) && !has_logarithms)
       return {};
     const ProfileSeries series(kernel.profile());
     return "; a Chebyshev series of " + std::to_string(series.coefficients.size()) +
            " terms approximates the radial profile, to " + base::to_text(series.error, 1) +
-           " of the kernel's integral";
+           " of the kernel's integral" +
+           (has_logarithms ? ", and 126 terms t ln t, to 3e-13 of its first moment" : "");
   }
 
   std::vector<double> FacePotential::ends() const

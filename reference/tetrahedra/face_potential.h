@@ -43,6 +43,12 @@ namespace plumbline::reference
 
     FacePotential(const PotentialKernel &kernel, Kind kind);
 
+    /// Whether the parts of a bond tensor, see SolidKernel, are sums of powers as it is.
+    static bool has_power_parts(const physics::RadialProfile &profile);
+
+    /// Degrees of polynomials equal to series, see PotentialTerms.
+    static std::vector<unsigned int> degrees(const physics::RadialProfile &profile);
+
     /// Why there is no such function of a kernel, and the remedy; empty: there is.
     static std::string refuse(const physics::Kernel<3> &kernel);
 

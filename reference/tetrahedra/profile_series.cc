@@ -74,6 +74,40 @@ namespace plumbline::reference
       return reflected(integral(reflected(f)));
     }
 
+    Polynomial sum(const Polynomial &f, const Wide &factor, const Polynomial &g)
+    {
+      Polynomial result = f;
+      result.resize(std::max(f.size(), g.size()));
+      for (std::size_t k = 0; k < g.size(); ++k)
+        result[k] += factor * g[k];
+      return result;
+    }
+
+    /// t ln t by n terms: ln t = -2 ln 2 - 2 Σ (-1)^k T_k / k.
+    Polynomial logarithm(std::size_t n)
+    {
+      Polynomial result = {-2 * log(Wide(2))};
+      for (std::size_t k = 1; k <= n; ++k)
+        result.push_back(Wide(k % 2 == 0 ? -2 : 2) / k);
+      result = times_r(result);
+      result.resize(n); // what is left out starts beyond
+      // those before the last are made small, so that the end leaves no oscillation
+      constexpr double strength = 36; // exp(-36) is round-off
+      constexpr int steepness = 12;
+      for (std::size_t k = 0; k < n; ++k)
+        result[k] *= std::exp(-strength *
+                              std::pow(static_cast<double>(k) / static_cast<double>(n), steepness));
+      return result;
+    }
+
+    std::vector<double> to_doubles(const Polynomial &f)
+    {
+      std::vector<double> result;
+      for (const Wide &c : f)
+        result.push_back(static_cast<double>(c));
+      return result;
+    }
+
     PotentialSeries::Number rounded(Wide value)
     {
       PotentialSeries::Number parts{};
@@ -122,6 +156,26 @@ namespace plumbline::reference
       difference = std::max(difference, std::abs(series(t) - value(t)));
     }
     error = .5 * difference / std::abs(profile.moment(2));
+  }
+
+  TensorSeries::TensorSeries(const ProfileSeries &profile)
+  {
+    // t γ = g = g₀ + g₁ t + t² h, t q = g₀ (1 - t) - g₁ t ln t + t ∫_t^1 h
+    const auto at_0 = [](const Polynomial &f) { return sum_of(reflected(f)); };
+    constexpr std::size_t n = 126;
+    const Polynomial g(profile.coefficients.begin(), profile.coefficients.end());
+    const Wide g0 = at_0(g);
+    const Polynomial first = over_r(sum(g, -1, {g0}));
+    const Wide g1 = at_0(first);
+    Polynomial q = {g0};
+    if (const Polynomial rest = sum(first, -1, {g1}); rest.size() > 1)
+      q = sum(q, 1, times_r(integral_to_1(over_r(rest))));
+    q = sum(q, -g0, times_r({1}));
+    constexpr double rounding = 1e-15;
+    if (abs(g1) > rounding * abs(g0))
+      q = sum(q, -g1, logarithm(n));
+    isotropic = to_doubles(q);
+    directional = to_doubles(sum(g, -3, q));
   }
 
   PotentialSeries::PotentialSeries(const std::vector<double> &profile, int order)

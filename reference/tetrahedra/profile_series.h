@@ -38,6 +38,17 @@ namespace plumbline::reference
     double error = 0;
   };
 
+  /// The parts of a bond tensor γ ê⊗ê as such series: t q, q = ∫_t^1 γ/s ds, and t w, w = γ - 3 q,
+  /// see SolidKernel. Where γ has a constant at 0 they have a term t ln t, whose coefficients are
+  /// known and fade out smoothly before the last: its moments ∫ t^n are wrong by 3e-13 (n = 1) and
+  /// 1e-16 (n > 1).
+  struct TensorSeries
+  {
+    explicit TensorSeries(const ProfileSeries &profile);
+
+    std::vector<double> isotropic, directional;
+  };
+
   /// The radial functions of PotentialPart as Chebyshev series, of t γ as one.
   struct PotentialSeries
   {

@@ -1,5 +1,7 @@
 #include "reference/tetrahedra/solid_kernel.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -115,6 +117,30 @@ namespace plumbline::reference
     }
   } // namespace
 
+  namespace
+  {
+    /// q and w as series.
+    void set_series(std::vector<PotentialKernel> &parts, const physics::RadialProfile &profile)
+    {
+      const TensorSeries series((ProfileSeries(profile)));
+      constexpr unsigned int of_logarithm = 24; // r^4 ln r by Gauss rules, to round-off
+      for (unsigned int part = 0; part < 2; ++part)
+      {
+        PotentialTerms terms;
+        terms.series = part == 0 ? series.isotropic : series.directional;
+        terms.degrees = FacePotential::degrees(profile);
+        for (unsigned int &degree : terms.degrees)
+          degree = std::max(degree, of_logarithm);
+        parts[part].terms = {terms};
+      }
+      // ∫ t² q = ∫ t² γ / 3, ∫ t⁴ q = ∫ t⁴ γ / 5
+      parts[0].second = profile.moment(2) / 3;
+      parts[0].fourth = profile.moment(4) / 5;
+      parts[1].second = 0;
+      parts[1].fourth = profile.moment(4) * 2 / 5;
+    }
+  } // namespace
+
   SolidKernel::SolidKernel(const physics::Kernel<3> &bonds,
                            const std::optional<physics::Dilatation<3>> &dilatation)
       : reach((dilatation ? 2 : 1) * bonds.horizon()), constant(bonds.constant()),
@@ -123,6 +149,12 @@ namespace plumbline::reference
     if (bonds.structure() == physics::Structure::scalar)
     {
       parts = {bonds};
+      return;
+    }
+    parts.resize(2);
+    if (!FacePotential::has_power_parts(bonds.profile()))
+    {
+      set_series(parts, bonds.profile());
       return;
     }
     Polynomial isotropic, directional; // q and w
@@ -137,7 +169,6 @@ namespace plumbline::reference
     }
     for (const auto &[exponent, coefficient] : isotropic)
       directional[exponent] -= 3 * coefficient;
-    parts.resize(2);
     const double horizons = reach / bonds.horizon();
     add(parts[0], isotropic, 1, horizons);
     add(parts[1], directional, 1, horizons);

@@ -26,8 +26,17 @@ namespace
   using physics::RadialProfile;
   using physics::Structure;
 
-  /// Singular, smooth, and both.
-  const std::vector<RadialProfile> profiles = {{{1, -1}}, {{1, 1}}, {{2, -1}, {-3, 1}, {1, 2}}};
+  /// Sums of powers: singular, smooth, and both.
+  const std::vector<RadialProfile> powers = {{{1, -1}}, {{1, 1}}, {{2, -1}, {-3, 1}, {1, 2}}};
+  /// Their parts have logarithms.
+  const std::vector<RadialProfile> with_constants = {{{1, 0}}, {{1, 0}, {-1, 1}}};
+
+  std::vector<RadialProfile> all_profiles()
+  {
+    std::vector<RadialProfile> all = powers;
+    all.insert(all.end(), with_constants.begin(), with_constants.end());
+    return all;
+  }
 
   TetrahedralMesh mesh_of_cubes(double side, int n_layers)
   {
@@ -78,10 +87,10 @@ namespace
   std::vector<Solid> solids(double reach)
   {
     std::vector<Solid> all;
-    for (const RadialProfile &profile : profiles)
+    for (const RadialProfile &profile : powers)
       all.push_back(bond_based(profile, reach));
-    all.push_back(state_based(profiles[0], reach / 2, 3));
-    all.push_back(state_based(profiles[2], reach / 2, -.5));
+    all.push_back(state_based(powers[0], reach / 2, 3));
+    all.push_back(state_based(powers[2], reach / 2, -.5));
     return all;
   }
 
@@ -170,7 +179,7 @@ TEST(TensorEntries, have_the_trace_of_scalar_kernels_and_annihilate_linear_field
   for (const bool is_continuous : {true, false})
   {
     const TetrahedralSpace space = space_of(moved_mesh(2, 3, .2), is_continuous);
-    for (const RadialProfile &profile : profiles)
+    for (const RadialProfile &profile : all_profiles())
     {
       const auto rows = blocks(exact_rows(space, bond_based(profile, horizon), 1), 0);
       const auto scalar = exact_rows(space, {{Structure::scalar, profile, horizon, 1}}, 1);
@@ -202,8 +211,6 @@ TEST(TensorEntries, have_the_trace_of_scalar_kernels_and_annihilate_linear_field
 TEST(TensorEntries, are_those_of_product_rules_where_cells_are_apart_and_within_the_horizon)
 {
   const double horizon = 5;
-  const Solid solid = bond_based(profiles[2], horizon);
-  const physics::Kernel<3> &kernel = solid.bonds;
   const TetrahedralMesh mesh = moved_mesh(1, 5, .2);
   const TetrahedralSpace space = space_of(mesh, false);
   const dealii::QWitherdenVincentSimplex<3> rule(5);
@@ -216,6 +223,8 @@ TEST(TensorEntries, are_those_of_product_rules_where_cells_are_apart_and_within_
   std::vector<std::size_t> cell_of(space.n_dofs());
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
     cell_of[space.dof(cell, 0)] = cell;
+  const Solid solid = bond_based(powers[2], horizon);
+  const physics::Kernel<3> &kernel = solid.bonds;
   const auto rows = blocks(exact_rows(space, solid, 1), 0);
   const double diagonal = rows.at(0)[0][0];
   unsigned int n_compared = 0;
@@ -251,8 +260,7 @@ TEST(TensorEntries, turn_with_the_mesh_and_are_symmetric_to_the_last_bit)
   TetrahedralMesh turned = mesh;
   for (Point<3> &x : turned.vertices)
     x = Point<3>(turn * x);
-  for (const Solid &solid :
-       {bond_based(profiles[0], reach), state_based(profiles[0], reach / 2, 3)})
+  for (const Solid &solid : {bond_based(powers[0], reach), state_based(powers[0], reach / 2, 3)})
     for (const bool is_continuous : {true, false})
     {
       constexpr std::size_t n_rows = 3;
@@ -318,15 +326,14 @@ TEST(TensorEntries, on_lattices_have_the_moments_of_the_local_limit_and_are_repe
   }
 }
 
-TEST(TensorEntries, are_refused_where_potentials_have_logarithms)
+TEST(TensorEntries, are_refused_for_tables_and_where_they_are_not_integrable)
 {
   const auto refused = [](const RadialProfile &profile) {
     return FacePotential::refuse({Structure::tensor, profile, 1, 1});
   };
-  for (const RadialProfile &profile : profiles)
+  for (const RadialProfile &profile : all_profiles())
     EXPECT_EQ(refused(profile), "");
-  EXPECT_NE(refused({{1, 0}, {-1, 1}}).find("without a constant"), std::string::npos);
-  EXPECT_NE(refused(RadialProfile::table({{0, 1}, {.5, 1}, {1, 0}})).find("without a constant"),
+  EXPECT_NE(refused(RadialProfile::table({{0, 1}, {.5, 1}, {1, 0}})).find("not for tables"),
             std::string::npos);
   EXPECT_NE(refused({{1, -2}}).find("at most 1/r"), std::string::npos);
 }

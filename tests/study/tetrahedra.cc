@@ -29,6 +29,75 @@ TEST(StaticsOnTetrahedra, are_exact_at_vertices_for_quadratic_fields)
   }
 }
 
+namespace
+{
+  const Settings bond_based = {{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}};
+  const Settings state_based = {{"Kernel/type", "1/r"},
+                                {"Kernel/limit", "Navier"},
+                                {"Material/model", "LPS"},
+                                {"Material/E", "1"},
+                                {"Material/nu", "0.35"}};
+} // namespace
+
+TEST(StaticsOnTetrahedra, of_solids_are_exact_at_vertices_for_quadratic_fields)
+{
+  for (const Settings &solid : {bond_based, state_based})
+  {
+    const auto results =
+        run(make_scene(with(solid, {{"Methods/names", "P1"},
+                                    {"Problem/solution", "x^2 + y*z - 1, z^2 - x, x*y + 2*y^2"},
+                                    {"Domain/boxes", "0,0,0 : 1,1,1; 0,0,1 : 1/2,1,3/2"},
+                                    {"Study/m", "1.5"},
+                                    {"Study/h", "1/4"}})));
+    ASSERT_EQ(results.records.front().failure, "");
+    EXPECT_LT(results.records.front()["nodal Linf | exact"], 1e-11);
+  }
+}
+
+TEST(StaticsOnTetrahedra, of_solids_are_moved_and_have_linear_fields_and_the_errors_of_cubes)
+{
+  for (const Settings &solid : {bond_based, state_based})
+  {
+    const auto records = [&solid](const std::string &solution, const std::string &methods)
+    {
+      return run(make_scene(with(solid, {{"Methods/names", methods},
+                                         {"Methods/perturbation", "0.2"},
+                                         {"Problem/solution", solution},
+                                         {"Study/m", "1"},
+                                         {"Study/h", "1/4"}})))
+          .records;
+    };
+    for (const Record &record : records("x + 2*y - z, 3*z - y, x", "P1"))
+      EXPECT_LT(record["averages L2 | exact"], 1e-11) << record.failure;
+    const auto smooth = records("x^3*y^2, y^2*z^3, x^2*z + y^3", "P1, Q1");
+    ASSERT_EQ(smooth.size(), 2u);
+    EXPECT_NEAR(smooth[0]["averages L2 | exact"] / smooth[1]["averages L2 | exact"], 1.25, .35);
+  }
+}
+
+TEST(StaticsOnTetrahedra, refuse_solids_that_they_have_no_entries_of)
+{
+  const auto message = [](const Settings &solid, const std::string &method)
+  {
+    try
+    {
+      run(make_scene(with(solid, {{"Methods/names", method},
+                                  {"Problem/solution", "x, y, z"},
+                                  {"Study/m", "1"},
+                                  {"Study/h", "1/4"}})));
+    }
+    catch (const InputError &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(bond_based, "DGP1").find("P1, DGP0 and DGQ0"), std::string::npos);
+  EXPECT_NE(
+      message(with(state_based, {{"Kernel/type", "constant"}}), "P1").find("Kernel/type = 1/r"),
+      std::string::npos);
+}
+
 TEST(StaticsOnTetrahedra, have_exact_averages_for_linear_fields)
 {
   const auto results = run(make_scene({{"Problem/solution", "3*x + 2*y - z"},
