@@ -194,11 +194,55 @@ TEST(Fracture, traction_and_grips_superpose_and_the_energy_is_accounted_for)
   BreakingNetwork<2> body(network(pulled(grips)), problem::Stretch::linear);
   EXPECT_NEAR(body.response().energy, .5 * body.response().reaction,
               1e-12 * body.response().energy);
-  const Growth growth = grow(body, rules());
-  EXPECT_EQ(growth.end, problem::GrowthEnd::parted);
-  EXPECT_TRUE(growth.is_separated);
-  for (const Event &event : growth.events)
+  for (const Event &event : grow(body, rules()).events)
     EXPECT_LT(event.imbalance(), 1e-10);
+}
+
+namespace
+{
+  /// Bonds by where they broke: beside the notch's line, at loaded nodes, and elsewhere.
+  struct Broken
+  {
+    std::size_t at_notch = 0, at_loads = 0, elsewhere = 0;
+  };
+
+  /// Pull until no loaded node is connected any more.
+  Broken pull_apart(const BreakingSolid<2> &solid)
+  {
+    const BondNetwork<2> net = network(solid);
+    BreakingNetwork<2> body(net, problem::Stretch::linear);
+    const Growth growth = grow(body, rules());
+    EXPECT_EQ(growth.end, problem::GrowthEnd::parted);
+    EXPECT_TRUE(growth.is_separated);
+    Broken broken;
+    for (const std::size_t b : all_broken(growth))
+    {
+      const auto [from, to] = std::pair(net.bonds[b].from, net.bonds[b].to);
+      const double middle = .5 * (net.nodes[from][1] + net.nodes[to][1]);
+      ++(net.loads[from].norm() + net.loads[to].norm() > 0 ? broken.at_loads
+         : std::abs(middle) < 3 * h                        ? broken.at_notch
+                                                           : broken.elsewhere);
+    }
+    return broken;
+  }
+} // namespace
+
+// A body also counts as separated where its loaded nodes have broken off, each alone.
+TEST(Fracture, a_traction_drives_a_crack_across_the_body_or_breaks_off_the_loaded_row)
+{
+  for (const double nu : {.25, .3})
+  {
+    const Broken crossed = pull_apart(pulled(plate(20, 14, .5, nu)));
+    EXPECT_GT(crossed.at_notch, 0u);
+    EXPECT_EQ(crossed.at_loads, 0u);
+    EXPECT_EQ(crossed.elsewhere, 0u);
+
+    BreakingSolid<2> tough = pulled(plate(20, 14, .1, nu));
+    tough.toughness = [](const Point<2> &x) { return x[1] < 4 * h ? 100. : 1.; };
+    const Broken crumbled = pull_apart(tough);
+    EXPECT_EQ(crumbled.at_notch, 0u);
+    EXPECT_GT(crumbled.at_loads, 0u);
+  }
 }
 
 // Of long strips between rigid grips: each length more costs half of the layers' modulus in series
