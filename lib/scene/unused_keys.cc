@@ -1,18 +1,20 @@
 #include "scene/unused_keys.h"
 
 #include "base/error.h"
+#include "base/similar_words.h"
 #include "scene/keys.h"
 #include "scene/models/model.h"
 #include "scene/on_line.h"
 #include "scene/values.h"
 
+#include <algorithm>
 #include <set>
 
 namespace plumbline::scene
 {
   namespace
   {
-    const std::string of_polynomials = "coefficients";
+    const std::string of_polynomials = "coefficients", on_hexahedra = "q1";
 
     struct Use
     {
@@ -20,6 +22,17 @@ namespace plumbline::scene
       bool is_there = false; ///< else the key has no effect
       std::string needs;     ///< what it is for
     };
+
+    /// Entries in space are exact, but for those of Q1 on the hexahedra of a file.
+    bool takes_outer_rule_in_space(const Scene &scene)
+    {
+      const auto is_meant = [](const std::string &method)
+      { return method == all || base::to_lower(method) == on_hexahedra; };
+      const auto &names = scene.methods.names;
+      return scene.domain.is_in_space() && scene.domain.mesh.is_file() &&
+             (std::any_of(names.begin(), names.end(), is_meant) ||
+              is_meant(scene.reference.method.value_or("")));
+    }
 
     std::vector<Use> uses_of_study(const Scene &scene)
     {
@@ -29,10 +42,11 @@ namespace plumbline::scene
                  is_on_cubes = is_in_space && scene.domain.mesh.is_lattice() &&
                                scene.methods.nodes.are_lattice_centres();
       const bool is_on_line = is_on_intervals(scene), is_in_plane = !is_in_space && !is_on_line;
-      const std::string exact = is_on_line
-                                    ? "two dimensions; entries on intervals are exact"
-                                    : "two dimensions; entries on lattices in three dimensions "
-                                      "are exact";
+      const bool has_outer_rule = is_in_plane || takes_outer_rule_in_space(scene);
+      const std::string exact = "two dimensions; entries " +
+                                std::string(is_on_line ? "on intervals are exact"
+                                                       : "in three dimensions are exact, but for "
+                                                         "those of Q1 on hexahedra");
       return {
           {"Study/m", !takes_horizon,
            "Study/regime = delta, delta-m or variable; with " + base::word(regime) +
@@ -54,8 +68,8 @@ namespace plumbline::scene
                !scene.problem.local_expression.empty(),
            "a static problem, or 'computed' or an expression in transient analyses"},
           {"Quadrature/entries", is_in_plane, exact},
-          {"Quadrature/tolerance", is_in_plane || scene.domain.mesh.is_file(), exact},
-          {"Quadrature/max refinements", is_in_plane || scene.domain.mesh.is_file(), exact},
+          {"Quadrature/tolerance", has_outer_rule, exact},
+          {"Quadrature/max refinements", has_outer_rule, exact},
           {"Geometry/backend", is_in_plane, "two dimensions"},
           {"Geometry/checks", is_in_plane, "two dimensions"},
           {"Geometry/seed", is_in_plane || scene.methods.nodes.perturbation > 0,

@@ -140,4 +140,15 @@ TEST_F(ProblemsOnHexahedra, are_refused_where_methods_or_settings_do_not_fit)
   EXPECT_EQ(message_of({{"Kernel/type", "gaussian"}, {"Kernel/width", ".5"}}), "");
   expect_refused({{"Time/final time", "1"}}, "a transient analysis with Domain/mesh");
   expect_refused({{"Methods/names", "FA"}}, "write Methods/nodes = mesh (the centroids");
+  // quadrature is that of Q1 alone
+  const Settings tight = {{"Quadrature/tolerance", "1e-5"}};
+  for (const char *const names : {"Q1", "DGQ0, q1", "all"})
+    EXPECT_EQ(message_of(with(tight, {{"Methods/names", names}})), "") << names;
+  EXPECT_EQ(message_of(with(tight, {{"Methods/names", "DGQ0"}, {"Reference/method", "Q1"}})), "");
+  for (const char *const names : {"DGQ0", "P1, DGP0, DGP1"})
+    expect_refused(with(tight, {{"Methods/names", names}}),
+                   "Quadrature/tolerance = 1e-5 has no effect here: it needs two dimensions; "
+                   "entries in three dimensions are exact, but for those of Q1 on hexahedra");
+  expect_refused({{"Methods/names", "DGQ0"}, {"Quadrature/max refinements", "2"}},
+                 "Quadrature/max refinements = 2 has no effect here");
 }

@@ -189,6 +189,7 @@ TEST_F(ProblemsOnTetrahedra, are_refused_where_methods_or_settings_do_not_fit)
   expect_refused({{"Domain/mesh", "hyper_ball"}, {"Domain/inside", "1"}},
                  "write lattice, or a file .msh or .geo");
   expect_refused({{"Study/h", "2"}}, "no cube of this side lies in the domain");
+  expect_refused({{"Quadrature/tolerance", "1e-5"}}, "Quadrature/tolerance = 1e-5 has no effect");
 }
 
 TEST_F(ProblemsOnTetrahedra, are_refused_on_meshes_that_do_not_fit_the_level)
