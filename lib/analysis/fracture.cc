@@ -157,6 +157,7 @@ namespace plumbline::analysis
     if (growth.end == GrowthEnd::loaded)
       growth.last_load = rules.largest_load;
     growth.is_separated = body.is_separated();
+    growth.load_left = body.load_left();
     return growth;
   }
 } // namespace plumbline::analysis

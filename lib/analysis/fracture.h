@@ -4,6 +4,7 @@
 #include "problem/fracture.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 // Growth of cracks in equilibrium, by bonds that break under a load that never falls.
@@ -33,10 +34,11 @@ namespace plumbline::analysis
   {
     std::vector<Event> events;
     problem::GrowthEnd end = problem::GrowthEnd::unknown;
-    double last_load = 0;       ///< where it ended
-    bool is_separated = false;  ///< no path of bonds joins the grips there, whatever ended it
-    double first_stiffness = 0; ///< reaction at load 1 of the whole body
-    std::size_t n_resumed = 0;  ///< events that were there already
+    double last_load = 0;            ///< where it ended
+    bool is_separated = false;       ///< no path of bonds joins the grips there, whatever ended it
+    std::optional<double> load_left; ///< see QuasistaticFractureModel, where it ended
+    double first_stiffness = 0;      ///< reaction at load 1 of the whole body
+    std::size_t n_resumed = 0;       ///< events that were there already
 
     /// The reaction where it ended over the largest up to there, in [0, 1] but for rounding; 1
     /// where nothing broke.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace plumbline::method
@@ -53,6 +54,10 @@ namespace plumbline::method
 
     /// No path of whole bonds joins the grips.
     virtual bool is_separated() const = 0;
+
+    /// The part of the dead loads that acts: on nodes that are not loose, in [0, 1]. Nothing: there
+    /// are no dead loads.
+    virtual std::optional<double> load_left() const { return {}; }
 
     /// What was done since it was made.
     struct Work

@@ -80,6 +80,9 @@ namespace plumbline::report
           {"nucleus y", "the same [length]"},
           {"connected", "whether bonds still connect the grips at the end"},
           {"reaction left", "reaction at the end relative to its peak"},
+          {"load left",
+           "part of the dead loads that acts on connected nodes at the end: nodes that "
+           "come loose lose theirs"},
           {"s0", "critical stretch of bonds, the minimum over all materials"},
           {"G_h / G", "energy of all bonds across a straight " +
                           std::string(is_in_space ? "plane" : "line") +
@@ -167,6 +170,18 @@ namespace plumbline::report
              force_unit(record) + "], is at load " + rounded(record["peak load"]);
     }
 
+    /// What still pulls at the end.
+    std::string words_of_rest(const Record &record)
+    {
+      if (!is_pulled_by_loads(record))
+        return " connect the grips, and the reaction is " + rounded(record["reaction left"]) +
+               " of its peak";
+      const double left = record["load left"];
+      return " connect what is loaded with the grips" +
+             (left > 0 ? ", and " + rounded(left) + " of the dead loads acts on connected nodes"
+                       : "");
+    }
+
     std::string verdict(const Record &record)
     {
       std::string text;
@@ -186,12 +201,9 @@ namespace plumbline::report
                 " elsewhere, not connected to " +
                 (record.has("nucleus x") ? "the crack" : "the notch");
       if (is_broken)
-        text +=
-            ". At the end " +
-            std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +
-            (is_pulled_by_loads(record) ? " connect what is loaded with the grips"
-                                        : " connect the grips, and the reaction is " +
-                                              rounded(record["reaction left"]) + " of its peak");
+        text += ". At the end " +
+                std::string(record.text("connected") == "no" ? "no bonds" : "bonds still") +
+                words_of_rest(record);
       return text + ".";
     }
 

@@ -297,6 +297,8 @@ namespace plumbline::study
     void set_end(const Growth &growth, const std::string &force, Record &record)
     {
       record.set("reaction left", growth.reaction_left());
+      if (growth.load_left)
+        record.set("load left", *growth.load_left);
       record.set("last load", growth.last_load);
       record.set("first stiffness", growth.first_stiffness, force);
       record.set("resumed", static_cast<double>(growth.n_resumed));

@@ -136,12 +136,11 @@ namespace plumbline::study
   /// phase 2 and of bonds between the two (ibid., (5.2)) [length]: of one phase L1 is all; where G
   /// has more than two values there are no phases. "first break" and
   /// "first advance" are loads of the first broken bond, in event 0, and of the first event after
-  /// which the tip is not the notch's, the "first advance event". "width", "apart", "reaction left"
-  /// and others. Without a notch "nucleus x" and "nucleus y" are where the crack begins, see
-  /// find_nucleus.
-  /// Texts: "end" and "connected". Curves: "events", "broken" (their bonds), "sides" and "notch",
-  /// "moments" of the components of the field "damage", "parts" and "phases". Field "G" where it
-  /// varies.
+  /// which the tip is not the notch's, the "first advance event". "width", "apart", "reaction
+  /// left", under dead loads "load left", and others. Without a notch "nucleus x" and "nucleus y"
+  /// are where the crack begins, see find_nucleus. Texts: "end" and "connected". Curves: "events",
+  /// "broken" (their bonds), "sides" and "notch", "moments" of the components of the field
+  /// "damage", "parts" and "phases". Field "G" where it varies.
   Record growth_record(Record record, const GrowthFindings &found);
 
   /// Where a crack went in space. In each layer z = const of nodes it is the path of those bonds

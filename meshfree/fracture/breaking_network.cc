@@ -78,6 +78,21 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
+  std::optional<double> BreakingNetwork<dim>::load_left() const
+  {
+    if (network_.loads.empty())
+      return {};
+    double all = 0, left = 0;
+    for (std::size_t i = 0; i < network_.loads.size(); ++i)
+    {
+      const double load = network_.loads[i].norm();
+      all += load;
+      left += connections_->is_loose(i) ? 0 : load;
+    }
+    return left / all;
+  }
+
+  template <int dim>
   void BreakingNetwork<dim>::restart(const std::vector<std::size_t> &broken)
   {
     broken_ = broken;

@@ -214,6 +214,7 @@ namespace
     const Growth growth = grow(body, rules());
     EXPECT_EQ(growth.end, problem::GrowthEnd::parted);
     EXPECT_TRUE(growth.is_separated);
+    EXPECT_EQ(growth.load_left, 0.);
     Broken broken;
     for (const std::size_t b : all_broken(growth))
     {
@@ -243,6 +244,32 @@ TEST(Fracture, a_traction_drives_a_crack_across_the_body_or_breaks_off_the_loade
     EXPECT_EQ(crumbled.at_notch, 0u);
     EXPECT_GT(crumbled.at_loads, 0u);
   }
+}
+
+TEST(Fracture, nodes_that_come_loose_lose_their_part_of_the_dead_loads)
+{
+  BreakingSolid<2> solid = pulled(plate(20, 14, .5, .3));
+  solid.load = [even = solid.load](const Point<2> &x) { return (1 + x[0]) * even(x); };
+  const BondNetwork<2> net = network(solid);
+  BreakingNetwork<2> body(net, problem::Stretch::linear);
+  EXPECT_EQ(body.load_left(), 1.);
+  double all = 0;
+  std::size_t node = 0; // the one with the largest load
+  for (std::size_t i = 0; i < net.nodes.size(); ++i)
+  {
+    all += net.loads[i].norm();
+    node = net.loads[i].norm() > net.loads[node].norm() ? i : node;
+  }
+  std::vector<std::size_t> own;
+  for (std::size_t b = 0; b < net.bonds.size(); ++b)
+    if (net.bonds[b].from == node || net.bonds[b].to == node)
+      own.push_back(b);
+  (void)body.break_bonds(own);
+  EXPECT_FALSE(body.is_separated());
+  EXPECT_NEAR(body.load_left().value(), 1 - net.loads[node].norm() / all, 1e-14);
+
+  const BreakingNetwork<2> held(network(plate(20, 14, .5, .3)), problem::Stretch::linear);
+  EXPECT_FALSE(held.load_left().has_value());
 }
 
 // Of long strips between rigid grips: each length more costs half of the layers' modulus in series

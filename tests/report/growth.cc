@@ -197,6 +197,26 @@ namespace plumbline::report
     }
   }
 
+  TEST(GrowthReport, TellsThePartOfTheDeadLoadsThatActsAtTheEnd)
+  {
+    const auto text_with = [](double load_left)
+    {
+      study::GrowthFindings findings = found();
+      findings.growth.is_separated = load_left == 0;
+      findings.growth.load_left = load_left;
+      study::StudyResults results = grown(findings);
+      results.records[0].texts["pulled by"] = "dead loads";
+      return in_one_line(text_of(results));
+    };
+    const std::string connect = "bonds still connect what is loaded with the grips";
+    EXPECT_NE(text_with(.25).find(connect + ", and 0.25 of the dead loads acts on connected nodes"),
+              std::string::npos)
+        << text_with(.25);
+    EXPECT_NE(text_with(0).find("no bonds connect what is loaded with the grips."),
+              std::string::npos)
+        << text_with(0);
+  }
+
   TEST(GrowthReport, AnswersBeforeItWarnsAndNamesFirstEvents)
   {
     const fixture::Folder folder;

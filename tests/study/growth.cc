@@ -113,9 +113,11 @@ namespace
     Release break_bonds(const std::vector<std::size_t> &) override { return {}; }
     void restart(const std::vector<std::size_t> &) override {}
     bool is_separated() const override { return is_in_two; }
+    std::optional<double> load_left() const override { return part_of_loads; }
     const Work &work() const override { return work_; }
 
     bool is_in_two = false;
+    std::optional<double> part_of_loads;
 
   private:
     Response response_;
@@ -350,6 +352,17 @@ TEST(Growth, what_is_left_of_the_reaction_is_that_at_the_end)
   EXPECT_EQ(growth.reaction_left(), .4); // it rises with the load
   growth.last_load = 40;
   EXPECT_EQ(growth.reaction_left(), 1); // beyond all before
+}
+
+TEST(Growth, records_what_is_left_of_the_dead_loads_if_there_are_any)
+{
+  Body body;
+  GrowthFindings found;
+  found.growth = analysis::grow(body, {});
+  EXPECT_FALSE(growth_record({}, found).has("load left"));
+  body.part_of_loads = .25;
+  found.growth = analysis::grow(body, {});
+  EXPECT_EQ(growth_record({}, found)["load left"], .25);
 }
 
 TEST(Growth, says_whether_the_body_has_parted)
