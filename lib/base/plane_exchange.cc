@@ -43,7 +43,8 @@ namespace plumbline::base
     const auto in_result = [&](int plane) { return result + (plane - mine.first) * plane_size; };
     const Range inside = intersect(mine, {0, slabs.n_planes()}), kept = intersect(mine, owned);
     std::fill(in_result(mine.first), in_result(std::min(mine.second, inside.first)), 0.);
-    std::fill(in_result(std::max(mine.first, inside.second)), in_result(mine.second), 0.);
+    std::fill(in_result(std::clamp(inside.second, mine.first, mine.second)), in_result(mine.second),
+              0.);
     if (kept.first < kept.second)
       std::copy(in_own(kept.first), in_own(kept.second), in_result(kept.first));
     if (ranks.n_ranks() == 1)

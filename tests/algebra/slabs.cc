@@ -146,6 +146,10 @@ TEST(Slabs, fetch_planes_from_all_ranks_that_have_them)
     for (int i = 0; i < plane_size; ++i)
       EXPECT_EQ(*value++, k < 0 || k >= n ? 0 : 100 + 10 * k + i);
 
+  for (const Slabs::Range &outside : {Slabs::Range{-5, -2}, {n, n + 3}})
+    EXPECT_EQ(slabs.fetch(own, plane_size, [&](unsigned int) { return outside; }),
+              std::vector<double>(3 * plane_size));
+
   const auto all = slabs.gather(own, plane_size);
   ASSERT_EQ(all.size(), slabs.ranks().rank() == 0 ? n * plane_size : 0u);
   for (std::size_t i = 0; i < all.size(); ++i)
