@@ -186,7 +186,7 @@ namespace plumbline::meshfree
       }
       bool is_distributed_in_space(const method::ProblemSize &size) const override
       {
-        return size.is_box && !size.is_scattered;
+        return size.depth > 0 && !size.is_scattered;
       }
 
     private:

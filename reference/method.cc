@@ -186,7 +186,7 @@ namespace plumbline::reference
       }
       bool is_distributed_in_space(const method::ProblemSize &size) const override
       {
-        return n_vertices_ == 4 && has_one_family() && size.is_box;
+        return n_vertices_ == 4 && has_one_family() && size.depth > 0 && size.n_cells == 0;
       }
 
     private:

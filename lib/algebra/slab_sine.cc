@@ -22,11 +22,33 @@ namespace plumbline::algebra
       static const bool ready = (fftw_mpi_init(), true);
       (void)ready;
     }
+
+    /// Modes are moved to slabs of the second axis. A box of one row there is turned about the
+    /// third axis, which leaves the order of its nodes.
+    std::array<int, 3> turned(const std::array<int, 3> &n)
+    {
+      return n[1] > 1 ? n : std::array<int, 3>{n[1], n[0], n[2]};
+    }
+
+    /// Of modes of a box turned so, shape (n[2], n_rows, n[0]).
+    std::vector<double> symbol_of_turned(const Stencil &stencil, unsigned int component,
+                                         const std::array<int, 3> &n, const base::Slabs &rows)
+    {
+      if (n[1] > 1)
+        return sine_symbol(stencil, component, n, rows.owned());
+      const std::vector<double> all = sine_symbol(stencil, component, n, {0, 1});
+      std::vector<double> values;
+      for (auto row = all.begin(); row != all.end(); row += n[0])
+        values.insert(values.end(), row + rows.owned().first, row + rows.owned().second);
+      return values;
+    }
   } // namespace
 
-  SlabSine::SlabSine(const Stencil &stencil, const std::array<int, 3> &n, const base::Slabs &slabs)
-      : n_own_(static_cast<std::size_t>(n[0]) * n[1] * slabs.n_owned())
+  SlabSine::SlabSine(const Stencil &stencil, const std::array<int, 3> &box,
+                     const base::Slabs &slabs)
+      : n_own_(static_cast<std::size_t>(box[0]) * box[1] * slabs.n_owned())
   {
+    const std::array<int, 3> n = turned(box);
     init_distributed_transforms();
     const MPI_Comm mpi = slabs.ranks().mpi;
     const std::array<std::ptrdiff_t, 3> extents = {n[2], n[1], n[0]};
@@ -53,7 +75,7 @@ namespace plumbline::algebra
     n_modes_ = static_cast<std::size_t>(modes_[0]) * modes_[1] * modes_[2];
     for (unsigned int c = 0; c < stencil.n_blocks(); ++c)
     {
-      std::vector<double> values = sine_symbol(stencil, c, n, rows.owned());
+      std::vector<double> values = symbol_of_turned(stencil, c, box, rows);
       double least = std::numeric_limits<double>::infinity(), largest = -least;
       for (const double value : values)
       {

@@ -16,14 +16,15 @@ namespace plumbline::algebra
   class SlabSine
   {
   public:
-    /// @param n      nodes along each axis
-    /// @param slabs  of the n[2] planes
-    /// @pre n[1] > 1
+    /// @param box    nodes along each axis
+    /// @param slabs  of the box[2] planes
+    /// @pre box[0] > 1 or box[1] > 1
     /// @note Collective, as apply().
     /// @throws NumericalError  an eigenvalue is not positive: the stencil is not coercive
-    SlabSine(const Stencil &stencil, const std::array<int, 3> &n, const base::Slabs &slabs);
+    SlabSine(const Stencil &stencil, const std::array<int, 3> &box, const base::Slabs &slabs);
 
-    /// @param input, output  of this rank, shape (n_components, n_owned, n[1], n[0])
+    /// @param input, output  of this rank, shape (n_components, n_owned, box[1], box[0]); may be
+    ///                       the same
     void apply(const double *input, double *output) const;
 
   private:

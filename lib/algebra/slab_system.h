@@ -8,22 +8,23 @@
 
 namespace plumbline::algebra
 {
-  /// A stencil on a box of nodes of which each rank has a slab of planes: the counterpart of
-  /// StencilSystem for one problem on many ranks. Each rank applies the stencil to its slab by the
-  /// operators of one rank, with a halo of planes within reach from the ranks beside it;
-  /// distributed sine transforms precondition. Memory and work of a rank fall as 1 / (number of
-  /// ranks), except for the halo, as long as there are planes for all ranks. Vectors are this
-  /// rank's, shape (n_blocks, n_owned, n[1], n[0]).
+  /// A stencil on the free nodes of a box of which each rank has a slab of planes: the counterpart
+  /// of StencilSystem for one problem on many ranks. Each rank applies the stencil to its slab by
+  /// the operators of one rank, with a halo of planes within reach from the ranks beside it;
+  /// distributed sine transforms precondition. Where some nodes are not free these are of the
+  /// maximal boxes of free nodes, each distributed over all ranks, and their sum is taken (additive
+  /// Schwarz, as on one rank). Memory and work of a rank fall as 1 / (number of ranks), except for
+  /// the halo and the mask of free nodes, as long as there are planes for all ranks. Vectors are
+  /// this rank's, shape (n_blocks, n_owned, n[1], n[0]), and vanish where nodes are not free.
   class SlabSystem : public LinearSystem
   {
   public:
-    /// @param n      nodes along each axis
-    /// @param slabs  of the n[2] planes
-    /// @pre n[1] > 1
+    /// @param slabs  of the nodes' n[2] planes
+    /// @pre no maximal box of free nodes is a single line of nodes along z
     /// @note Collective, as all functions.
     /// @throws NumericalError  the stencil is not symmetric or not coercive
     /// @throws InputError      a backend that cannot do it, see `make_operator`
-    SlabSystem(const Stencil &stencil, const std::array<int, 3> &n, const base::Slabs &slabs,
+    SlabSystem(const Stencil &stencil, const geometry::BoxNodes &nodes, const base::Slabs &slabs,
                OperatorBackend backend);
     ~SlabSystem() override;
 

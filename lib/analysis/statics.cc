@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "geometry/node_planes.h"
 #include "method/discretisation.h"
 
 #include <algorithm>
@@ -219,11 +220,13 @@ namespace plumbline::analysis
     void keep_share(SolutionInSpace &solution, const problem::Problem<3> &problem,
                     const base::Communicator &ranks)
     {
-      const auto &n_cells = problem.lattice.n_cells();
-      const std::size_t n_components = problem.n_components,
-                        of_plane = static_cast<std::size_t>(n_cells[0]) * n_cells[1];
+      const std::size_t n_components = problem.n_components;
+      const auto cells = geometry::cell_centres(problem.lattice);
+      const auto n_below = [&cells](int plane) {
+        return geometry::planes_of(cells, {0, plane}).n_free();
+      };
       const auto [first, second] = method::slabs_of_cells(problem.lattice, ranks).owned();
-      keep(solution.averages, {first * of_plane, second * of_plane}, n_components);
+      keep(solution.averages, {n_below(first), n_below(second)}, n_components);
       const auto nodes = ranks.owned_range(solution.nodes.size());
       solution.nodes = {solution.nodes.begin() + nodes.first,
                         solution.nodes.begin() + nodes.second};

@@ -3,6 +3,8 @@
 #include "algebra/multiplier_system.h"
 #include "algebra/slab_system.h"
 #include "base/error.h"
+#include "geometry/maximal_boxes.h"
+#include "geometry/node_planes.h"
 #include "method/stencil_rows.h"
 
 #include <algorithm>
@@ -56,22 +58,30 @@ namespace plumbline::method
     {
     public:
       /// @param margin  the reach of the stencil, at least 1
-      Nearness(const geometry::CubeLattice &lattice, NodePlace nodes, int margin)
+      /// @param own     positions of this rank: those within the margin around them are asked for
+      Nearness(const geometry::CubeLattice &lattice, NodePlace nodes, int margin,
+               const CubeRange &own)
           // vertex p has the cells p and p + 1 on its sides; a free one has vertices of Ω around it
-          : below_(nodes == NodePlace::vertices ? margin - 1 : margin), above_(margin + 1)
+          : below_(nodes == NodePlace::vertices ? margin - 1 : margin), above_(margin + 1),
+            first_(std::clamp(own.lower[2] - margin - below_, 0, lattice.n_cells()[2]))
       {
-        if (!lattice.is_box())
-          cells_.emplace(lattice.mask(), lattice.n_cells());
+        if (lattice.is_box())
+          return;
+        const auto cells = geometry::planes_of(geometry::cell_centres(lattice),
+                                               {first_, own.upper[2] + margin + above_});
+        cells_.emplace(cells.is_free, cells.n);
       }
 
       bool operator()(const std::array<int, 3> &at) const
       {
-        return !cells_ || cells_->in({{at[0] - below_, at[1] - below_, at[2] - below_},
-                                      {at[0] + above_, at[1] + above_, at[2] + above_}}) > 0;
+        const int z = at[2] - first_;
+        return !cells_ || cells_->in({{at[0] - below_, at[1] - below_, z - below_},
+                                      {at[0] + above_, at[1] + above_, z + above_}}) > 0;
       }
 
     private:
       int below_, above_;
+      int first_;                                 ///< plane of the cells
       std::optional<geometry::CellCounts> cells_; ///< none: Ω is a box, and all positions are near
     };
 
@@ -380,8 +390,13 @@ namespace plumbline::method
 
   bool BoxDiscretisation::distribute(const base::Communicator &ranks)
   {
-    // a single row of nodes in each plane: FFTW has no transform that moves modes to slabs of rows
-    if (!lattice_.is_box() || nodes_.n[1] == 1)
+    // FFTW has no distributed transform along a line
+    const auto is_line = [](const CubeRange &box)
+    { return box.upper[0] - box.lower[0] == 1 && box.upper[1] - box.lower[1] == 1; };
+    const std::vector<CubeRange> boxes = nodes_.is_free.empty()
+                                             ? std::vector<CubeRange>{{{}, nodes_.n}}
+                                             : geometry::maximal_boxes(nodes_.is_free, nodes_.n);
+    if (std::any_of(boxes.begin(), boxes.end(), is_line))
       return false;
     cell_slabs_ = slabs_of_cells(lattice_, ranks);
     node_slabs_ = cell_slabs_.with_planes(nodes_.n[2]);
@@ -397,6 +412,7 @@ namespace plumbline::method
   algebra::Vector BoxDiscretisation::tested(const problem::Field<3> &field) const
   {
     const CubeRange own = own_nodes();
+    const auto is_free = geometry::planes_of(nodes_, node_slabs_.owned()).is_free;
     physics::AxisFunctionals functionals;
     for (unsigned int d = 0; d < 3; ++d)
       for (int i = own.lower[d]; i < own.upper[d]; ++i)
@@ -408,7 +424,7 @@ namespace plumbline::method
         {
           for (unsigned int c = 0; c < n_components_; ++c)
           {
-            const auto of_component = field.apply(c, functionals, nodes_.is_free);
+            const auto of_component = field.apply(c, functionals, is_free);
             value = std::copy(of_component.begin(), of_component.end(), value);
           }
         });
@@ -418,7 +434,7 @@ namespace plumbline::method
   std::vector<double> BoxDiscretisation::constraint_values(const problem::Problem<3> &problem,
                                                            int margin) const
   {
-    const Nearness is_near(lattice_, node_place_, margin);
+    const Nearness is_near(lattice_, node_place_, margin, own_nodes());
     const CubeRange range = with_margin(own_nodes(), margin);
     std::vector<double> values;
     values.reserve(place_in(range, n_components_, range.lower));
@@ -445,17 +461,16 @@ namespace plumbline::method
   BoxDiscretisation::Data BoxDiscretisation::data(const problem::Problem<3> &problem) const
   {
     const int margin = std::max(1, stencil_.reach());
-    const Nearness is_near(lattice_, node_place_, margin);
     const CubeRange own = own_nodes();
+    const Nearness is_near(lattice_, node_place_, margin, own);
     const auto around = std::make_shared<const Surroundings>(surroundings(
         problem, with_margin(own, margin), node_slabs_.ranks(),
         [this](const std::array<int, 3> &at) { return place(at); },
         [&](const std::array<int, 3> &at) { return !nodes_.free(at) && is_near(at); }));
     Data result;
     result.load = tested(problem.load);
-    const geometry::BoxNodes of_rank = {{nodes_.n[0], nodes_.n[1], node_slabs_.n_owned()},
-                                        nodes_.is_free};
-    result.load -= collar_action(stencil_, of_rank, around->values);
+    result.load -=
+        collar_action(stencil_, geometry::planes_of(nodes_, node_slabs_.owned()), around->values);
     result.field = [this, own, around](const Vector &u)
     {
       FieldInSpace field;
@@ -517,7 +532,7 @@ namespace plumbline::method
   std::unique_ptr<algebra::LinearSystem> BoxDiscretisation::tangent() const
   {
     if (node_slabs_.ranks().n_ranks() > 1)
-      return std::make_unique<algebra::SlabSystem>(stencil_, nodes_.n, node_slabs_, backend_);
+      return std::make_unique<algebra::SlabSystem>(stencil_, nodes_, node_slabs_, backend_);
     return make_box_system(stencil_, nodes_, backend_);
   }
 } // namespace plumbline::method

@@ -37,7 +37,8 @@ namespace plumbline::method
 
     std::size_t n_unknowns() const override;
 
-    /// Where Ω is a box.
+    /// Not where a maximal box of free nodes is a single line of nodes along z; motion() needs a
+    /// box.
     bool distribute(const base::Communicator &ranks) override;
 
     Data data(const problem::Problem<3> &problem) const override;

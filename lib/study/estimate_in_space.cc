@@ -27,11 +27,8 @@ namespace plumbline::study
       };
       const auto planes = slabs.owned(), fine_planes = halves(ranks.rank());
       if (ranks.n_ranks() > 1)
-      {
-        constexpr std::size_t n_fine = 4; // cells in a plane for each coarse one
-        averages = method::slabs_of_cells(fine, ranks)
-                       .fetch(averages, n_fine * plane_size(problem), halves);
-      }
+        averages = fetch_averages(fine, n_components, method::slabs_of_cells(fine, ranks), averages,
+                                  halves);
       std::vector<double> sums(static_cast<std::size_t>(n[0]) * n[1] * slabs.n_owned() *
                                n_components),
           result;

@@ -175,7 +175,12 @@ namespace plumbline::study
           more += of_node * (size.n_free - of_rank.n_free);
       }
       else if (is_shared)
+      {
+        constexpr double of_masks = 4; // which cells are in Ω, and which nodes are free
+        if (!size.is_box)
+          more += of_masks * size.extents[0] * size.extents[1] * size.depth;
         of_rank.depth = std::ceil(size.depth / n_ranks);
+      }
       std::ostringstream text;
       text << what << method.name() << " at h = " << size.level.h
            << ", horizon = " << size.level.horizon << " (";
@@ -204,7 +209,7 @@ namespace plumbline::study
                             const method::ProblemSize &size)
     {
       constexpr double margin = .8, rounding = 1e-9;
-      if (size.depth == 0 || !size.has_dilatation || !scene.material.is_homogeneous ||
+      if (!size.is_box || !size.has_dilatation || !scene.material.is_homogeneous ||
           !method.is_distributed_in_space(size))
         return 0;
       const physics::Lame lame = scene.material.lame()({});
@@ -300,7 +305,7 @@ namespace plumbline::study
     bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
     {
       return method.is_distributed_in_space(size) &&
-             !(scene.time.is_dynamic() && wants_estimate(scene, method));
+             (!scene.time.is_dynamic() || is_motion_shared(scene, method));
     }
 
     MemoryEstimate estimate_motion(const scene::Scene &scene, const Method &method,

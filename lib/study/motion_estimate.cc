@@ -63,10 +63,16 @@ namespace plumbline::study
            (scene.reference.estimate == scene::Estimate::automatic && !is_known);
   }
 
+  bool is_motion_shared(const scene::Scene &scene, const Method &method)
+  {
+    return scene.domain.mesh.is_lattice() && !wants_estimate(scene, method) &&
+           scene.domain.cubes(scene.study.series.front().levels.front().h).is_box();
+  }
+
   void share_motion(const scene::Scene &scene, const Method &method,
                     method::DiscretisationInSpace &discretisation, const base::Communicator &ranks)
   {
-    if (ranks.n_ranks() > 1 && !wants_estimate(scene, method))
+    if (ranks.n_ranks() > 1 && is_motion_shared(scene, method))
       discretisation.distribute(ranks);
   }
 

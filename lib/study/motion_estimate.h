@@ -28,8 +28,11 @@ namespace plumbline::study
   {
   }
 
-  /// Give each rank a slab if the transient analysis by the method is distributed over ranks. It is
-  /// not distributed if its error is estimated, since the estimate compares lattices.
+  /// Whether ranks share the transient analysis by a method that distributes nodes in slabs: not if
+  /// its error is estimated, since the estimate compares lattices, nor on unions of boxes.
+  bool is_motion_shared(const scene::Scene &scene, const Method &method);
+
+  /// Give each rank a slab if they share the transient analysis by the method.
   /// @note Collective.
   void share_motion(const scene::Scene &scene, const Method &method,
                     method::DiscretisationInSpace &discretisation, const base::Communicator &ranks);

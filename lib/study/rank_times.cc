@@ -69,6 +69,8 @@ namespace plumbline::study
     {
       if (std::find(repeated.begin(), repeated.end(), method) != repeated.end())
         continue;
+      if (!scene.domain.cubes(scene.study.series.front().levels.front().h).is_box())
+        continue; // the model has one sine transform
       for (const auto &series : scene.study.series)
         for (std::size_t i = 0; i < series.levels.size() && (n_levels == 0 || i < n_levels); ++i)
           try

@@ -19,8 +19,9 @@ namespace plumbline::study
     algebra::ModelTime iteration;    ///< of conjugate gradients, in static problems
   };
 
-  /// Of the methods that are distributed over ranks in slabs, by method, series and level. Stencils
-  /// are computed and nothing else, so the number of unknowns is not limited.
+  /// Of the methods that are distributed over ranks in slabs, by method, series and level, where
+  /// the domain is one box. Stencils are computed and nothing else, so the number of unknowns is
+  /// not limited.
   /// @param n_levels  the first so many of each series; 0: all
   /// @pre scene.domain.is_in_space()
   std::vector<TimeOfLevel> predict_times(const scene::Scene &scene, const Methods &methods,

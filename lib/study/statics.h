@@ -31,7 +31,7 @@ namespace plumbline::study
     std::function<std::vector<analysis::Outcome>(const Method &,
                                                  const std::vector<const problem::Problem<2> *> &)>
         solve = {};
-    /// That solve problems on a box in space together.
+    /// That solve problems on boxes in space together.
     base::Communicator ranks = base::Communicator::alone();
   };
 

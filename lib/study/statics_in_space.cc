@@ -2,6 +2,7 @@
 
 #include "analysis/statics.h"
 #include "base/error.h"
+#include "geometry/node_planes.h"
 #include "method/another_operator.h"
 #include "physics/gauss.h"
 #include "study/compared_case.h"
@@ -44,6 +45,7 @@ namespace plumbline::study
       const auto &gauss = physics::gauss(n_points);
       physics::AxisFunctionals means;
       const auto planes = slabs_of_cells(problem.lattice, ranks).owned();
+      const auto cells = geometry::planes_of(geometry::cell_centres(problem.lattice), planes);
       for (unsigned int d = 0; d < 3; ++d)
       {
         const auto [first, second] = d == 2 ? planes : std::pair(0, problem.lattice.n_cells()[d]);
@@ -56,13 +58,10 @@ namespace plumbline::study
           means[d].push_back(std::move(mean));
         }
       }
-      std::vector<double> result;
+      std::vector<double> result(cells.n_free() * problem.n_components);
       for (unsigned int c = 0; c < problem.n_components; ++c)
       {
-        const auto of_component = field.apply(c, means, problem.lattice.mask());
-        if (c == 0)
-          result.resize((ranks.n_ranks() == 1 ? problem.lattice.size() : of_component.size()) *
-                        problem.n_components);
+        const auto of_component = field.apply(c, means, cells.is_free);
         std::size_t place = c;
         for_each_cell(
             problem.lattice, planes,
@@ -85,9 +84,7 @@ namespace plumbline::study
     public:
       LevelInSpace(const Place &place, const Methods &available, const StaticsOptions &options)
           : place_(place), scene_(place.scene()), available_(available), options_(options),
-            ranks_(scene_.domain.mesh.is_lattice() && scene_.domain.cubes(place.level().h).is_box()
-                       ? options.ranks
-                       : Communicator::alone()),
+            ranks_(scene_.domain.mesh.is_lattice() ? options.ranks : Communicator::alone()),
             cases_(place.shared<CasesInSpace>("cases in space", [this] { return open(); }))
       {
       }
@@ -221,8 +218,12 @@ namespace plumbline::study
         {
           std::vector<double> gathered; // on the first rank, which writes
           if (ranks_.n_ranks() > 1)
-            gathered = slabs_of_cells(one.problem.lattice, ranks_)
-                           .gather(solution.averages, plane_size(one.problem));
+            gathered =
+                fetch_averages(one.problem.lattice, one.problem.n_components,
+                               slabs_of_cells(one.problem.lattice, ranks_), solution.averages,
+                               [&](unsigned int rank) -> base::Slabs::Range {
+                                 return {0, rank == 0 ? one.problem.lattice.n_cells()[2] : 0};
+                               });
           const auto &all = ranks_.n_ranks() > 1 ? gathered : solution.averages;
           options_.on_finest([&](const std::string &stem)
                              { method::write_vti(one.problem, all, stem + ".vti"); },

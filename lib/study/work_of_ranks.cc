@@ -54,9 +54,10 @@ namespace plumbline::study
            (scene.domain.is_in_space()
                 ? " of " + names_of(study::repeated_by_ranks(scene, methods)) +
                       "; Q1, DGQ0 and rules on the nodes of the lattice are distributed where "
-                      "the domain is one box" +
-                      (scene.time.is_dynamic() ? " and no error is estimated (Reference/estimate)"
-                                               : "")
+                      "the domain is " +
+                      (scene.time.is_dynamic()
+                           ? "one box and no error is estimated (Reference/estimate)"
+                           : "one box or several (Domain/boxes)")
             : scene.domain.is_free_body
                 ? ", because methods on bodies with a free boundary are not all distributed; use "
                   "one "

@@ -7,6 +7,7 @@
 #include "algebra/slab_operator.h"
 #include "algebra/slab_system.h"
 #include "base/error.h"
+#include "geometry/maximal_boxes.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -22,6 +23,7 @@ namespace
   using namespace plumbline::algebra;
   using base::Communicator;
   using base::Slabs;
+  using geometry::BoxNodes;
 
   using Extents = std::array<int, 3>;
 
@@ -88,6 +90,30 @@ namespace
   }
 
   constexpr double rounding = 1e-12;
+
+  /// An L-shaped body with a cavity, whose maximal boxes begin and end in several planes.
+  BoxNodes with_constrained_nodes(const Extents &n)
+  {
+    BoxNodes nodes{n};
+    geometry::for_each_index({0, 0, 0}, n,
+                             [&](const Extents &at)
+                             {
+                               const bool is_beside = at[0] >= n[0] - 2 && at[2] >= n[2] / 2,
+                                          is_cavity = at == Extents{2, 2, 1};
+                               nodes.is_free.push_back(is_beside || is_cavity ? 0 : 1);
+                             });
+    return nodes;
+  }
+
+  /// Random where nodes are free.
+  Vector random_values(const BoxNodes &nodes, unsigned int n_blocks)
+  {
+    Vector values = random_values(n_blocks * nodes.n_positions());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (nodes.is_free[i % nodes.is_free.size()] == 0)
+        values[i] = 0;
+    return values;
+  }
 
   /// What this rank sends to transpose planes to rows and back, by the sizes that FFTW tells.
   base::Traffic transposed_by_fftw(const Extents &n, const Slabs &slabs)
@@ -171,10 +197,10 @@ TEST(SlabSystem, is_the_operator_of_one_rank)
             const Slabs slabs(Communicator::all(), n[2]);
             const Vector input = random_values(n_blocks * n[0] * n[1] * n[2]);
             Vector expected(input.size());
-            make_operator(stencil, geometry::BoxNodes{n}, backend)->vmult(expected, input);
+            make_operator(stencil, BoxNodes{n}, backend)->vmult(expected, input);
             const Vector own = own_part(input, n_blocks, n, slabs);
             Vector output(own.size());
-            SlabSystem(stencil, n, slabs, backend).vmult(output, own);
+            SlabSystem(stencil, BoxNodes{n}, slabs, backend).vmult(output, own);
             EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding)
                 << n_blocks << ", " << is_even << ", " << reach[2] << ", " << n[2];
           }
@@ -206,7 +232,7 @@ TEST(SlabOperator, has_the_bits_of_one_rank_where_stencils_are_direct)
 TEST(SlabSystem, has_the_preconditioner_of_one_rank)
 {
   for (const unsigned int n_blocks : {1u, 2u})
-    for (const Extents &n : {Extents{7, 6, 5}, {6, 3, 17}, {4, 9, 1}})
+    for (const Extents &n : {Extents{7, 6, 5}, {6, 3, 17}, {4, 9, 1}, {1, 5, 6}, {5, 1, 9}})
     {
       const Stencil stencil = make_stencil(n_blocks, {2, 2, 2}, true);
       const Slabs slabs(Communicator::all(), n[2]);
@@ -215,7 +241,7 @@ TEST(SlabSystem, has_the_preconditioner_of_one_rank)
       make_box_sine_solver(stencil, n, {{}, n})->add_inverse(expected, input);
       const Vector own = own_part(input, n_blocks, n, slabs);
       Vector output(own.size());
-      SlabSystem(stencil, n, slabs, OperatorBackend::automatic).precondition(output, own);
+      SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::automatic).precondition(output, own);
       EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding);
     }
 }
@@ -231,7 +257,7 @@ TEST(SlabSystem, has_blocks_that_leave_the_last_ranks_fewer_planes)
   make_box_sine_solver(stencil, n, {{}, n})->add_inverse(expected, input);
   const Vector own = own_part(input, 1, n, slabs);
   Vector output(own.size());
-  SlabSystem(stencil, n, slabs, OperatorBackend::direct).precondition(output, own);
+  SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::direct).precondition(output, own);
   EXPECT_LT(difference(output, expected, 1, n, slabs), rounding);
 }
 
@@ -244,12 +270,63 @@ TEST(SlabSystem, solves_as_one_rank_does)
       const Slabs slabs(Communicator::all(), n[2]);
       const Vector right_hand_side = random_values(n_blocks * n[0] * n[1] * n[2]);
       Vector expected(right_hand_side.size());
-      const LinearSolve alone =
-          StencilSystem(stencil, geometry::BoxNodes{n}, OperatorBackend::automatic)
-              .solve(expected, right_hand_side, {1e-13, 100});
+      const LinearSolve alone = StencilSystem(stencil, BoxNodes{n}, OperatorBackend::automatic)
+                                    .solve(expected, right_hand_side, {1e-13, 100});
       const Vector own = own_part(right_hand_side, n_blocks, n, slabs);
       Vector solution(own.size());
-      const LinearSolve together = SlabSystem(stencil, n, slabs, OperatorBackend::automatic)
+      const LinearSolve together =
+          SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::automatic)
+              .solve(solution, own, {1e-13, 100});
+      EXPECT_LT(difference(solution, expected, n_blocks, n, slabs), rounding);
+      EXPECT_EQ(together.n_iterations, alone.n_iterations);
+      EXPECT_EQ(together.n_bonds, alone.n_bonds);
+      EXPECT_EQ(together.backend, alone.backend + " in slabs");
+    }
+}
+
+TEST(SlabSystem, has_the_operator_and_preconditioner_of_one_rank_where_nodes_are_constrained)
+{
+  for (const unsigned int n_blocks : {1u, 3u})
+    for (const Extents &n : {Extents{7, 6, 5}, {6, 5, 17}})
+    {
+      const BoxNodes nodes = with_constrained_nodes(n);
+      const Stencil stencil = make_stencil(n_blocks, {2, 1, 3}, true);
+      const Slabs slabs = Slabs(Communicator::all(), n[2] + 1).with_planes(n[2]); // of cells
+      const SlabSystem system(stencil, nodes, slabs, OperatorBackend::automatic);
+      const Vector input = random_values(nodes, n_blocks),
+                   own = own_part(input, n_blocks, n, slabs);
+      Vector expected(input.size()), output(own.size());
+      make_operator(stencil, nodes, OperatorBackend::automatic)->vmult(expected, input);
+      system.vmult(output, own);
+      EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding)
+          << n_blocks << ", " << n[2];
+
+      expected = 0.;
+      const auto boxes = geometry::maximal_boxes(nodes.is_free, n);
+      EXPECT_GT(boxes.size(), 2u);
+      for (const geometry::CubeRange &box : boxes)
+        make_box_sine_solver(stencil, n, box)->add_inverse(expected, input);
+      system.precondition(output, own);
+      EXPECT_LT(difference(output, expected, n_blocks, n, slabs), rounding)
+          << n_blocks << ", " << n[2];
+    }
+}
+
+TEST(SlabSystem, solves_as_one_rank_does_where_nodes_are_constrained)
+{
+  for (const unsigned int n_blocks : {1u, 3u})
+    for (const Extents &n : {Extents{9, 8, 6}, {6, 5, 19}})
+    {
+      const BoxNodes nodes = with_constrained_nodes(n);
+      const Stencil stencil = make_stencil(n_blocks, {2, 2, 2}, n_blocks == 1);
+      const Slabs slabs(Communicator::all(), n[2]);
+      const Vector right_hand_side = random_values(nodes, n_blocks);
+      Vector expected(right_hand_side.size());
+      const LinearSolve alone = StencilSystem(stencil, nodes, OperatorBackend::automatic)
+                                    .solve(expected, right_hand_side, {1e-13, 100});
+      const Vector own = own_part(right_hand_side, n_blocks, n, slabs);
+      Vector solution(own.size());
+      const LinearSolve together = SlabSystem(stencil, nodes, slabs, OperatorBackend::automatic)
                                        .solve(solution, own, {1e-13, 100});
       EXPECT_LT(difference(solution, expected, n_blocks, n, slabs), rounding);
       EXPECT_EQ(together.n_iterations, alone.n_iterations);
@@ -265,11 +342,11 @@ TEST(SlabSystem, is_refused_by_all_ranks)
   Stencil stencil = make_stencil(1, {1, 1, 1}, true);
   const double diagonal = stencil(0, 0, 0, 0, 0);
   stencil(0, 0, 0, 0, 0) = 0; // its symbol is negative where others have their modes
-  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::automatic), NumericalError);
+  EXPECT_THROW(SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::automatic), NumericalError);
   stencil(0, 0, 0, 0, 0) = diagonal;
-  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::sparse), InputError);
+  EXPECT_THROW(SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::sparse), InputError);
   stencil(0, 0, 1, 0, 0) *= 2;
-  EXPECT_THROW(SlabSystem(stencil, n, slabs, OperatorBackend::automatic), NumericalError);
+  EXPECT_THROW(SlabSystem(stencil, BoxNodes{n}, slabs, OperatorBackend::automatic), NumericalError);
 }
 
 // What PlaneExchange counts as it posts messages, for boxes and for a lattice in the plane.

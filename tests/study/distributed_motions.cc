@@ -155,6 +155,16 @@ TEST(DistributedMotions, are_beside_methods_whose_work_is_repeated)
                            1e-11);
 }
 
+TEST(DistributedMotions, are_repeated_on_unions_of_boxes)
+{
+  expect_same_on_all_ranks({{"Methods/names", "FA, Q1"},
+                            {"Domain/boxes", "0,0,0 : 1,1,1/2; 0,0,0 : 1/2,1,1"},
+                            {"Problem/solution", moving},
+                            {"Time/mass", "lumped"},
+                            {"Time/final time", "0.1"},
+                            {"Time/frames", "2"}});
+}
+
 TEST(DistributedMotions, fail_on_all_ranks_where_a_field_is_not_finite_in_one_slab)
 {
   const std::string singular = "0*sqrt(0.7 - z)";

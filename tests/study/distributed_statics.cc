@@ -175,23 +175,27 @@ TEST(DistributedStatics, take_the_memory_that_is_estimated)
 {
   // within a factor of 2, see Method::expected_bytes, where it is not little
   const Communicator ranks = Communicator::all();
-  const scene::Scene scene = make_scene({{"Methods/names", "Q1"},
-                                         {"Problem/solution", "x^2 + y*z"},
-                                         {"Study/h", "1/80"},
-                                         {"Study/norms", "nodal Linf"}});
-  const Methods all = available(), methods = choose_methods(scene, all);
-  StaticsOptions options;
-  options.ranks = ranks;
-  RunControl control;
-  control.ranks = ranks;
-  const StudyResults results = run_study(statics_analysis(all, options), scene, methods, control);
-  const double measured = static_cast<double>(results.records.front().cost.peak_bytes);
-  const auto estimated = [&](unsigned int n_ranks)
-  { return estimate_memory(scene, methods, 0, n_ranks).front().largest.bytes; };
-  EXPECT_LT(estimated(ranks.n_ranks()), 2 * measured);
-  EXPECT_GT(estimated(ranks.n_ranks()), measured / 2);
-  for (const unsigned int n_ranks : {2u, 4u, 8u})
-    EXPECT_LT(estimated(n_ranks), .65 * estimated(n_ranks / 2)); // halves, and halos
+  for (const std::string boxes : {"0,0,0 : 1,1,1", "0,0,0 : 1,1,1/2; 0,0,0 : 1/2,1,1"})
+  {
+    const scene::Scene scene = make_scene({{"Methods/names", "Q1"},
+                                           {"Domain/boxes", boxes},
+                                           {"Problem/solution", "x^2 + y*z"},
+                                           {"Study/h", "1/80"},
+                                           {"Study/norms", "nodal Linf"}});
+    const Methods all = available(), methods = choose_methods(scene, all);
+    StaticsOptions options;
+    options.ranks = ranks;
+    RunControl control;
+    control.ranks = ranks;
+    const StudyResults results = run_study(statics_analysis(all, options), scene, methods, control);
+    const double measured = static_cast<double>(results.records.front().cost.peak_bytes);
+    const auto estimated = [&](unsigned int n_ranks)
+    { return estimate_memory(scene, methods, 0, n_ranks).front().largest.bytes; };
+    EXPECT_LT(estimated(ranks.n_ranks()), 2 * measured) << boxes;
+    EXPECT_GT(estimated(ranks.n_ranks()), measured / 2) << boxes;
+    for (const unsigned int n_ranks : {2u, 4u, 8u})
+      EXPECT_LT(estimated(n_ranks), .65 * estimated(n_ranks / 2)) << boxes; // halves, and halos
+  }
 }
 
 TEST(DistributedStatics, have_the_memory_of_their_rows_of_meshes_estimated)
@@ -234,8 +238,33 @@ TEST(DistributedStatics, count_scattered_nodes_once)
                            "");
 }
 
-TEST(DistributedStatics, leave_unions_of_boxes_to_each_rank)
+TEST(DistributedStatics, are_for_unions_of_boxes)
 {
-  expect_same_on_all_ranks(
-      {{"Methods/names", "FA, Q1"}, {"Domain/boxes", "0,0,0 : 1,1,1/2; 0,0,0 : 1/2,1,1"}}, "");
+  expect_same_on_all_ranks({{"Methods/names", "FA, IPA-AC-R2, Q1, DGQ0"},
+                            {"Domain/boxes", "0,0,0 : 1,1,1/2; 0,0,0 : 1/2,1,1"},
+                            {"Reference/method", "Q1"},
+                            {"Study/norms", "nodal Linf, nodal L2, averages Linf, averages L2"}},
+                           "FA; IPA-AC-R2; Q1; DGQ0;");
+}
+
+TEST(DistributedStatics, are_for_solids_with_cavities)
+{
+  expect_same_on_all_ranks({{"Methods/names", "FA, Q1"},
+                            {"Domain/boxes", "0,0,0 : 1,1,3/2"},
+                            {"Domain/holes", "1/2,1/4,3/4 : 3/4,1/2,1"},
+                            {"Study/h", "1/8"},
+                            {"Kernel/type", "bond-tensor"},
+                            {"Kernel/limit", "Navier"},
+                            {"Reference/estimate", "none"},
+                            {"Problem/solution", "x^2 + y*z, z^2, x*y"}},
+                           "FA; Q1;");
+}
+
+TEST(DistributedStatics, are_on_unions_of_boxes_beside_methods_whose_work_is_repeated)
+{
+  // of the first box, two cells thick, Q1 has one row of vertices in each plane
+  expect_same_on_all_ranks({{"Methods/names", "Q1, Q2"},
+                            {"Domain/boxes", "0,0,0 : 1,1/2,1; 0,0,1/2 : 1/2,1,1"},
+                            {"Study/h", "1/4"}},
+                           "Q1;");
 }
