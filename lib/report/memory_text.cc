@@ -70,7 +70,7 @@ namespace plumbline::report
                          const algebra::Rates &rates)
   {
     if (times.empty())
-      return "\ntime: predicted only where several ranks share the work in slabs\n";
+      return "\ntime: predicted only where several ranks share the work on one box in slabs\n";
     Table table{"",
                 {"method", "series", "h", "planes", "ranks at work", "operation", "time [ms]",
                  "work [ms]", "latency [ms]", "bandwidth [ms]", "messages", "sent [MB]"},

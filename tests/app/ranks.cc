@@ -118,6 +118,12 @@ TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
   const std::string results = read(folder / "results.json");
   expect_found(results, "\"work of ranks\": \"distributed in slabs of cells along z\"");
   expect_found(results, " in slabs\"");
+  outcome = run_on_two_ranks("run " + cube +
+                             " --set 'Domain/boxes=0,0,0 : 1,1,1/2; 0,0,0 : 1/2,1,1' --levels 1");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  expect_found(read(folder / "results.json"),
+               "\"work of ranks\": \"distributed in slabs of cells along z\"");
   outcome = run_on_two_ranks("run " + cube + " --methods Q1,Q2 --levels 1");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work of Q2; Q1, DGQ0 "
@@ -195,7 +201,8 @@ TEST(Ranks, are_told_the_memory_of_each_before_the_run)
   EXPECT_EQ(answers("4"), 2u);       // FA and Q2
   EXPECT_LT(answers("1000000"), 2u); // Q2 takes 1.3 MB of each, 1.3 TB of all together
   const Outcome alone = run(cube);
-  expect_found(alone.out, "time: predicted only where several ranks share the work in slabs");
+  expect_found(alone.out,
+               "time: predicted only where several ranks share the work on one box in slabs");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(count(alone.out, "(32 x 32 x 32 cells)"), 2u) << alone.out;
   EXPECT_FALSE(fs::exists(folder));
