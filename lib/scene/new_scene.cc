@@ -92,10 +92,10 @@ namespace plumbline::scene
         changes.push_back(
             {"Problem/solution", is_scalar ? "x^3 + 2*y^2*z^2" : "x^3*y^2, y^2*z^3, x^2*z + y^3"});
       }
-      // on tetrahedra there are entries for scalar kernels only
-      const std::string space = mesh.dimension == 3 && !is_scalar ? ""
-                                : mesh.is_quadrilaterals          ? ", Q1"
-                                                                  : ", P1";
+      // on hexahedra Q1 has entries of scalar kernels only
+      const std::string space = !mesh.is_quadrilaterals             ? ", P1"
+                                : mesh.dimension == 3 && !is_scalar ? ""
+                                                                    : ", Q1";
       if (mesh.dimension == 3)
         changes.push_back({"Methods/nodes", "mesh"});
       const std::vector<Override> rest = {{"Methods/names", "FA, IPA-AC, IPA-AC-R2" + space},
