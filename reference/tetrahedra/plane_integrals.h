@@ -325,13 +325,20 @@ namespace plumbline::reference
       }
       const auto &rule = GaussRules<Real>::get().for_ellipse(axis, extra);
       const Real half = size / 2;
+      // series are evaluated at all points together
+      std::array<Real, GaussRules<Real>::most_points> sigma, r, value; // filled up to rule.n
       for (unsigned int q = 0; q < rule.n; ++q)
       {
-        const Real sigma = from + half * (1 + rule.points[q]), r = sqrt(sigma * sigma + square_);
-        const Real value = polynomial(part)(r) * (half * rule.weights[q] / r * sigma);
-        sum[0] += value;
-        sum[1] += value * sigma;
-        sum[2] += value * sigma * sigma;
+        sigma[q] = from + half * (1 + rule.points[q]);
+        r[q] = sqrt(sigma[q] * sigma[q] + square_);
+      }
+      polynomial(part).evaluate(r.data(), value.data(), rule.n);
+      for (unsigned int q = 0; q < rule.n; ++q)
+      {
+        const Real term = value[q] * (half * rule.weights[q] / r[q] * sigma[q]);
+        sum[0] += term;
+        sum[1] += term * sigma[q];
+        sum[2] += term * sigma[q] * sigma[q];
       }
     }
 
