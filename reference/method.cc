@@ -74,9 +74,9 @@ namespace plumbline::reference
           return all;
         if (n_vertices_ == 3)
         {
-          method::Capabilities some = {Capability::lattice, Capability::meshes,
+          method::Capabilities some = {Capability::lattice,   Capability::meshes,
                                        Capability::triangles, Capability::nonlocal,
-                                       Capability::space};
+                                       Capability::dynamic,   Capability::space};
           if (is_continuous_ || degree_ == 0)
             some.insert(Capability::dilatation);
           return some;

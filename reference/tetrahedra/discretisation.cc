@@ -6,10 +6,12 @@
 #include "method/limit_proof.h"
 #include "method/linear_equations.h"
 #include "method/sparse_discretisation.h"
+#include "method/sparse_motion.h"
 #include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/field.h"
 #include "reference/tetrahedra/hexahedra.h"
+#include "reference/tetrahedra/mass.h"
 #include "reference/tetrahedra/repeated_rows.h"
 
 #include <algorithm>
@@ -82,6 +84,28 @@ namespace plumbline::reference
       {
         return std::make_unique<algebra::SparseSystem>(free_, options_,
                                                        base::Communicator::alone());
+      }
+
+      std::unique_ptr<method::MotionOf<3>> motion(bool is_lumped) const override
+      {
+        method::SparseParts<3> parts;
+        for (std::size_t dof = 0; dof < space_->n_free(); ++dof)
+          parts.nodes.push_back(space_->support(dof));
+        parts.n_components = n_components_;
+        parts.stiffness = free_;
+        parts.constrained = std::make_shared<const algebra::CsrMatrix>(constrained_);
+        if (is_lumped)
+          parts.masses = volumes(*space_);
+        else
+          parts.mass = method::part(mass_rows(*space_, n_components_), n_unknowns());
+        parts.load = [this](const problem::Problem<3> &instant)
+        {
+          const std::vector<double> tested = load(instant);
+          return Vector(tested.begin(), tested.end());
+        };
+        parts.around = [this](const problem::Problem<3> &instant)
+        { return constraint_values(instant); };
+        return method::move_by_rows<3>(std::move(parts));
       }
 
       method::Diagnostics diagnostics() const override { return diagnostics_; }
