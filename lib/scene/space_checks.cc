@@ -49,8 +49,6 @@ namespace plumbline::scene
             is_on_mesh ? "write mesh: the centroids of the cells"
                        : "write centres, or a file .csv");
       needs(!is_on_mesh || nodes.perturbation == 0, "Methods/perturbation" + on_mesh, "write 0");
-      needs(!is_on_mesh || !scene.time.is_dynamic(), "a transient analysis" + on_mesh,
-            "write Time/final time = 0, or Domain/mesh = lattice");
       if (nodes.are_lattice_centres())
         return;
       const std::string scattered =
