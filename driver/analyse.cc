@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/first_rank.h"
 #include "base/progress_line.h"
+#include "base/shared_flag.h"
 #include "base/workers.h"
 #include "driver/interrupts.h"
 #include "driver/jobs.h"
@@ -158,30 +159,33 @@ namespace plumbline::driver
         const base::Communicator &ranks = task_.task_ranks;
         const std::size_t n = ranks.n_ranks();
         std::size_t round = 0;
-        do_tasks(methods,
-                 [&](std::uint64_t &task)
-                 {
-                   const std::size_t next = round * n + (ranks.rank() + round) % n;
-                   show(std::min<std::size_t>(next, tasks.size()));
-                   if (next >= tasks.size())
-                     return false;
-                   task = tasks[next];
-                   ++round;
-                   return true;
-                 });
-        ranks.wait();
+        base::SharedFlag interrupt(ranks);
+        do_tasks(
+            methods, [&] { return interrupt.is_set(is_interrupted()); },
+            [&](std::uint64_t &task)
+            {
+              const std::size_t next = round * n + (ranks.rank() + round) % n;
+              show(std::min<std::size_t>(next, tasks.size()));
+              if (next >= tasks.size())
+                return false;
+              task = tasks[next];
+              ++round;
+              return true;
+            });
+        interrupt.finish(is_interrupted);
       }
 
       /// What a worker does, be it a process or a rank.
-      /// @param next  gives the next task, until there are no more
-      void do_tasks(const method::Methods &methods,
+      /// @param should_stop  is asked before each task
+      /// @param next         gives the next task, until there are no more
+      void do_tasks(const method::Methods &methods, const std::function<bool()> &should_stop,
                     const std::function<bool(std::uint64_t &task)> &next)
       {
         journal_.join();
         study::RunControl own = control();
         if (task_.take_over)
           task_.take_over(own.earlier);
-        own.should_stop = is_interrupted;
+        own.should_stop = should_stop;
         own.next_task = next;
         (void)run_study(task_.analysis, scene_, methods, own);
       }
@@ -336,7 +340,7 @@ namespace plumbline::driver
     progress.reset();
     if (options.is_worker)
     {
-      Work(task, options, scene, folder).do_tasks(methods, base::next_task);
+      Work(task, options, scene, folder).do_tasks(methods, is_interrupted, base::next_task);
       return 0;
     }
     const bool is_shared = options.n_jobs > 1, is_shared_by_ranks = task.task_ranks.n_ranks() > 1;

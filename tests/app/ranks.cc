@@ -135,6 +135,42 @@ TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
   fs::remove_all(folder);
 }
 
+// Of ranks that share slabs, and of ranks that share methods and levels.
+TEST(Ranks, end_together_where_one_of_them_is_interrupted)
+{
+  const std::string cube = write("ranks_cube.prm", "subsection Domain\n set dimension = 3\n"
+                                                   " set boxes = 0,0,0 : 1,1,1\nend\n"
+                                                   "subsection Problem\n set solution = x^2 + y*z\n"
+                                                   "end\nsubsection Methods\n set names = Q1\nend\n"
+                                                   "subsection Study\n set h = 1/8, 1/64, 1/96\n"
+                                                   "end\n"),
+                    square = small_scene("lattice") +
+                             " --methods DGQ1,DGQ2,DGQ3,Q2,Q3 --set 'Study/h=.05, .02, .01'";
+  for (const std::string &scene : {cube, square})
+  {
+    const fs::path folder = temporary("ranks_interrupted"), err = temporary("ranks_err");
+    const std::string ranks =
+        write("ranks.sh", "if test $OMPI_COMM_WORLD_RANK = 1\nthen (until test -s " +
+                              (folder / "results.jsonl").string() +
+                              "; do sleep 0.1; done; kill -INT $$) &\nfi\n"
+                              "exec " PLUMBLINE_COMMAND " run " +
+                              scene + " --threads 1 -o " + folder.string());
+    const int status = std::system(("timeout 60 " PLUMBLINE_MPIRUN " --allow-run-as-root "
+                                    "--oversubscribe --mca mpi_yield_when_idle 1 -np 2 sh " +
+                                    ranks + " >/dev/null 2>" + err.string())
+                                       .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 130) << read(err);
+    expect_found(read(err), "interrupted: what is finished is in '" + folder.string());
+    EXPECT_EQ(run("report " + folder.string()).exit_code, 0);
+    const std::string results = read(folder / "results.json");
+    expect_found(results, "\"is_complete\": false");
+    EXPECT_GE(count(results, "\"peak_bytes\""), 1u);
+    EXPECT_LE(count(results, "\"peak_bytes\""), 7u); // of 15 the first rank has 7 on the square
+    for (const fs::path &file : {folder, err, fs::path(ranks)})
+      fs::remove_all(file);
+  }
+}
+
 TEST(Ranks, share_motions_in_space_and_say_which_methods_do_not)
 {
   const fs::path folder = temporary("ranks");

@@ -1,6 +1,7 @@
 // A fault of one rank alone is one of all: they throw the same, and none waits for another.
 #include "base/communicator.h"
 #include "base/error.h"
+#include "base/shared_flag.h"
 #include "study/statics.h"
 
 #include <deal.II/base/exceptions.h>
@@ -9,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <new>
+#include <thread>
 
 using namespace plumbline;
 using base::Communicator;
@@ -121,6 +124,38 @@ TEST(SeparateCommunicator, has_the_same_ranks_and_its_own_messages)
                    },
                    20),
                NumericalError);
+}
+
+TEST(SharedFlag, is_found_set_by_ranks_that_do_not_wait)
+{
+  const auto is_never = [] { return false; };
+  for (int time = 0; time < 2; ++time) // no message of the first is left for the second
+  {
+    base::SharedFlag unset(Communicator::all());
+    EXPECT_FALSE(unset.is_set(false));
+    unset.finish(is_never);
+
+    base::SharedFlag set(Communicator::all());
+    for (int i = 0; i < 5000 && !set.is_set(is_last()); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(set.is_set(false));
+    set.finish(is_never);
+  }
+}
+
+TEST(SharedFlag, is_set_by_a_rank_that_has_finished)
+{
+  base::SharedFlag flag(Communicator::all());
+  if (is_last() && Communicator::all().n_ranks() > 1)
+    flag.finish([] { return true; });
+  else
+  {
+    const bool is_alone = Communicator::all().n_ranks() == 1;
+    for (int i = 0; i < 5000 && !flag.is_set(is_alone); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(flag.is_set(false));
+    flag.finish([] { return false; });
+  }
 }
 
 TEST(Sweep, what_fails_on_one_rank_has_failed_on_all)
