@@ -2,6 +2,7 @@
 #include "algebra/slab_operator.h"
 #include "algebra/spectrum.h"
 #include "base/error.h"
+#include "geometry/node_planes.h"
 #include "method/box_discretisation.h"
 #include "method/linear_motion.h"
 
@@ -90,8 +91,7 @@ namespace plumbline::method
     std::optional<NodeSlabs> distribution;
     if (node_slabs_.ranks().n_ranks() > 1)
       distribution = {node_slabs_, static_cast<std::size_t>(nodes_.n[0]) * nodes_.n[1]};
-    const geometry::BoxNodes own = {{nodes_.n[0], nodes_.n[1], node_slabs_.n_owned()},
-                                    nodes_.is_free};
+    const geometry::BoxNodes own = geometry::planes_of(nodes_, node_slabs_.owned());
     const auto positions =
         std::make_shared<const std::vector<std::size_t>>(free_positions(own, n_components_));
     const std::size_t n_unknowns = positions->size(), n_nodes = n_unknowns / n_components_;

@@ -155,6 +155,14 @@ TEST(DistributedMotions, are_beside_methods_whose_work_is_repeated)
                            1e-11);
 }
 
+TEST(DistributedMotions, are_of_a_single_row_of_nodes_across)
+{
+  expect_same_on_all_ranks({{"Methods/names", "FA, Q1"},
+                            {"Domain/boxes", "0,0,0 : 1,1/2,5/4"}, // one row of vertices
+                            {"Time/mass", "consistent"},
+                            {"Time/initial velocity", "x*y + z^3"}});
+}
+
 TEST(DistributedMotions, are_repeated_on_unions_of_boxes)
 {
   expect_same_on_all_ranks({{"Methods/names", "FA, Q1"},
