@@ -226,7 +226,7 @@ namespace plumbline::study
                  const problem::Problem<dim> &problem, const std::vector<dealii::Point<dim>> &nodes,
                  const std::vector<double> &nodal, Record &record, const base::Communicator &ranks)
   {
-    if (std::find(norms.begin(), norms.end(), scene::Norm::energy) == norms.end())
+    if (!has_energy(norms))
       return;
     if (ranks.n_ranks() > 1)
       throw InputError("Study/norms = energy is computed on one rank; run without mpirun, or write "

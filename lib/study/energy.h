@@ -8,6 +8,7 @@
 #include "scene/choices.h"
 #include "study/study_results.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,12 @@ namespace plumbline::study
   template <int dim>
   std::optional<double> energy_norm(const method::LinearEquations<dim> &of,
                                     const std::vector<double> &e);
+
+  /// The norm "energy" is among these: ranks do not share what it is of.
+  inline bool has_energy(const std::vector<scene::Norm> &norms)
+  {
+    return std::find(norms.begin(), norms.end(), scene::Norm::energy) != norms.end();
+  }
 
   /// Where the norm "energy" is asked for, enter into the record of any method
   /// - "energy": ½ a(u_h, u_h), see above, and "energy of exact", "energy of local": of the known

@@ -5,6 +5,7 @@
 #include "scene/mesh.h"
 #include "scene/mesh_in_space.h"
 #include "scene/on_line.h"
+#include "study/energy.h"
 #include "study/memory_estimate.h"
 #include "study/motion_estimate.h"
 #include "study/preflight.h"
@@ -226,14 +227,22 @@ namespace plumbline::study
           least, most);
     }
 
+    /// In slabs.
+    bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
+    {
+      return method.is_distributed_in_space(size) &&
+             (scene.time.is_dynamic() ? is_motion_shared(scene, method)
+                                      : !has_energy(scene.study.norms));
+    }
+
     MemoryEstimate estimate_solution(const scene::Scene &scene, const Method &method,
                                      const method::ProblemSize &size, const std::string &what,
                                      unsigned int n_ranks)
     {
-      const bool is_shared = n_ranks > 1 && (method.is_distributed_in_space(size) ||
-                                             is_shared_on_mesh(scene, method, size));
-      return estimate(method, size, what, n_ranks, is_shared,
-                      n_ranks > 1 ? 0 : multiplier_bytes(scene, method, size));
+      const bool is_of_all =
+          n_ranks > 1 && (is_shared(scene, method, size) || is_shared_on_mesh(scene, method, size));
+      return estimate(method, size, what, n_ranks, is_of_all,
+                      is_of_all ? 0 : multiplier_bytes(scene, method, size));
     }
 
     void require(const MemoryEstimate &estimate, unsigned int n_jobs)
@@ -300,12 +309,6 @@ namespace plumbline::study
       for (const auto &method : methods)
         for (const MemoryEstimate &one : estimate_all(scene, *method, size, processes.n_ranks))
           require(one, processes.n_jobs);
-    }
-
-    bool is_shared(const scene::Scene &scene, const Method &method, const method::ProblemSize &size)
-    {
-      return method.is_distributed_in_space(size) &&
-             (!scene.time.is_dynamic() || is_motion_shared(scene, method));
     }
 
     MemoryEstimate estimate_motion(const scene::Scene &scene, const Method &method,

@@ -84,7 +84,9 @@ namespace plumbline::study
     public:
       LevelInSpace(const Place &place, const Methods &available, const StaticsOptions &options)
           : place_(place), scene_(place.scene()), available_(available), options_(options),
-            ranks_(scene_.domain.mesh.is_lattice() ? options.ranks : Communicator::alone()),
+            ranks_(scene_.domain.mesh.is_lattice() && !has_energy(scene_.study.norms)
+                       ? options.ranks
+                       : Communicator::alone()),
             cases_(place.shared<CasesInSpace>("cases in space", [this] { return open(); }))
       {
       }

@@ -57,7 +57,7 @@ namespace plumbline::study
                       "the domain is " +
                       (scene.time.is_dynamic()
                            ? "one box and no error is estimated (Reference/estimate)"
-                           : "one box or several (Domain/boxes)")
+                           : "one box or several (Domain/boxes) and Study/norms is without energy")
             : scene.domain.is_free_body
                 ? ", because methods on bodies with a free boundary are not all distributed; use "
                   "one "

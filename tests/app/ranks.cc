@@ -124,6 +124,11 @@ TEST(Ranks, share_boxes_in_space_and_say_which_methods_do_not)
   EXPECT_EQ(outcome.err, "");
   expect_found(read(folder / "results.json"),
                "\"work of ranks\": \"distributed in slabs of cells along z\"");
+  // the energy norm is of one rank, so ranks share methods instead
+  outcome = run_on_two_ranks("run " + cube + " --set Study/norms='nodal Linf, energy' --levels 1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_found(read(folder / "results.json"),
+               "\"work of ranks\": \"methods and levels are distributed");
   outcome = run_on_two_ranks("run " + cube + " --methods Q1,Q2 --levels 1");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(count(outcome.err, "note: each of the 2 ranks repeats all of the work of Q2; Q1, DGQ0 "
