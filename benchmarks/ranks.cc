@@ -127,7 +127,7 @@ namespace
     const SlabOperator matrix(stencil, n, slabs, OperatorBackend::direct),
         matrix_alone(stencil, slab, alone, OperatorBackend::direct);
     const SlabSine sine_alone(stencil, slab, alone);
-    const SlabSystem system(stencil, n, slabs, OperatorBackend::direct);
+    const SlabSystem system(stencil, geometry::BoxNodes{n}, slabs, OperatorBackend::direct);
     unsigned int n_iterations = 1;
     constexpr int much = 1 << 20;
     std::vector<char> number(sizeof(double)), megabyte(much);
