@@ -218,6 +218,28 @@ namespace plumbline::study
     {
       return form(equations_of(method, problem));
     }
+
+    /// The energy of a known solution, and the energy norm of the error of `own`.
+    template <int dim>
+    void enter_known(const Form<dim> &of, const std::vector<double> &own, scene::Target target,
+                     const problem::Field<dim> &u, const std::string &unit,
+                     const std::string &norm_unit, Record &record)
+    {
+      std::vector<double> known, error;
+      for (const dealii::Point<dim> &node : of.nodes)
+        for (unsigned int c = 0; c < of.n_components; ++c)
+        {
+          known.push_back(u(node, c));
+          error.push_back(own[error.size()] - known.back());
+        }
+      record.set("energy of " + base::word(target), of.energy(known), unit);
+      if (const auto norm = of.norm(error))
+        record.set(scene::DecisiveError{scene::Norm::energy, target}.text(), *norm, norm_unit);
+      else
+        record.notes.push_back("no energy norm of the error against the " + base::word(target) +
+                               " solution: a(e, e) is negative because the rule's operator is "
+                               "not positive definite");
+    }
   } // namespace
 
   template <int dim>
@@ -245,27 +267,10 @@ namespace plumbline::study
                : record.has("variation") ? of.largest_norm * record["variation"]
                                          : 0,
                norm_unit);
-    const auto enter = [&](scene::Target target, const problem::Field<dim> &u)
-    {
-      std::vector<double> known, error;
-      for (const dealii::Point<dim> &node : of.nodes)
-        for (unsigned int c = 0; c < of.n_components; ++c)
-        {
-          known.push_back(u(node, c));
-          error.push_back(own[error.size()] - known.back());
-        }
-      record.set("energy of " + base::word(target), of.energy(known), unit);
-      if (const auto norm = of.norm(error))
-        record.set(scene::DecisiveError{scene::Norm::energy, target}.text(), *norm, norm_unit);
-      else
-        record.notes.push_back("no energy norm of the error against the " + base::word(target) +
-                               " solution: a(e, e) is negative because the rule's operator is "
-                               "not positive definite");
-    };
     if (problem.solution)
-      enter(scene::Target::exact, *problem.solution);
+      enter_known(of, own, scene::Target::exact, *problem.solution, unit, norm_unit, record);
     if (problem.local_solution)
-      enter(scene::Target::local, *problem.local_solution);
+      enter_known(of, own, scene::Target::local, *problem.local_solution, unit, norm_unit, record);
   }
 
 #define INSTANTIATE(dim)                                                                           \
