@@ -138,7 +138,6 @@ TEST_F(ProblemsOnHexahedra, are_refused_where_methods_or_settings_do_not_fit)
       {{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}, {"Problem/solution", "x, y, z"}},
       "by P1, DGP0 and DGQ0; take these");
   EXPECT_EQ(message_of({{"Kernel/type", "gaussian"}, {"Kernel/width", ".5"}}), "");
-  EXPECT_EQ(message_of({{"Time/final time", "1"}}), "");
   expect_refused({{"Methods/names", "FA"}}, "write Methods/nodes = mesh (the centroids");
   // quadrature is that of Q1 alone
   const Settings tight = {{"Quadrature/tolerance", "1e-5"}};
