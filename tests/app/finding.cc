@@ -192,8 +192,8 @@ TEST(Finding, new_takes_dimension_sizes_and_cells_from_a_mesh_file)
                                         "Transfinite Curve{1:4} = 5; Transfinite Surface{1};"));
   expect_found(exact, "set Study/m = 3\n");
   expect_found(exact, "set Study/h = 0.353553390");
-  // entries on tetrahedra are for scalar kernels
-  expect_found(made(meshes + "three_d/ball.geo --kind elastic"), "= FA, IPA-AC, IPA-AC-R2\n");
+  // tetrahedra have entries of bond tensors, too
+  expect_found(made(meshes + "three_d/ball.geo --kind elastic"), "= FA, IPA-AC, IPA-AC-R2, P1\n");
 }
 
 TEST(Finding, several_words_are_one_phrase)
