@@ -4,6 +4,7 @@
 #include "reference/tetrahedra/assembly.h"
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/repeated_rows.h"
+#include "reference/tetrahedra/solid_kernel.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/physics/transformations.h>
@@ -323,6 +324,42 @@ TEST(TensorEntries, on_lattices_have_the_moments_of_the_local_limit_and_are_repe
                             (lambda + mu) / mu * .5 *
                                 (same(a, c) * same(b, d) + same(a, d) * same(b, c)),
                         1e-11);
+  }
+}
+
+TEST(TensorEntries, have_potentials_that_are_integrals_of_both_parts)
+{
+  const dealii::QGauss<1> rule(96);
+  const auto integral = [&rule](double from, const auto &f)
+  {
+    double sum = 0;
+    for (unsigned int k = 0; k < rule.size(); ++k)
+      sum += (1 - from) * rule.weight(k) * f(from + (1 - from) * rule.point(k)[0]);
+    return sum;
+  };
+  std::vector<RadialProfile> profiles = all_profiles();
+  profiles.push_back(physics::kernel_type("bond-tensor gaussian").make({{}, 0, .5}));
+  for (const RadialProfile &profile : profiles)
+  {
+    const auto q = [&](double t)
+    { return integral(t, [&profile](double s) { return profile(s) / s; }); };
+    const auto w = [&](double t) { return profile(t) - 3 * q(t); };
+    const SolidKernel parts({Structure::tensor, profile, 1, 1});
+    for (const auto kind : {FacePotential::Kind::harmonic, FacePotential::Kind::biharmonic})
+      for (const double r : {.05, .3, .7})
+        for (unsigned int part = 0; part < 2; ++part)
+        {
+          const auto power = [&](double x)
+          { return kind == FacePotential::Kind::harmonic ? x : x * x * x / 6; };
+          const double expected =
+              integral(r, [&](double t) { return t * (part == 0 ? q(t) : w(t)) * power(t - r); }) /
+              r;
+          const double square = r * r;
+          double value = 0;
+          FacePotential(parts.parts[part], kind).values(&square, &value, 1);
+          EXPECT_NEAR(value, expected, FacePotential::has_power_parts(profile) ? 2e-13 : 1e-11)
+              << r << " " << part;
+        }
   }
 }
 
