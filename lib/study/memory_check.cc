@@ -318,7 +318,9 @@ namespace plumbline::study
       // points in time
       constexpr double n_states = 15, n_points = 33;
       const double n_vectors = n_states + (scene.is_steady() ? 3 : 3 * n_points);
-      const method::ProblemSize size = lattice_size(scene, level);
+      const method::ProblemSize size = scene.domain.is_in_space() && scene.domain.mesh.is_file()
+                                           ? mesh_size_in_space(scene, level)
+                                           : lattice_size(scene, level);
       const bool is_of_all = n_ranks > 1 && is_shared(scene, method, size);
       const double n_unknowns = size.n_components * size.extents[0] * size.extents[1] *
                                 std::ceil(size.depth / (is_of_all ? n_ranks : 1));

@@ -21,8 +21,9 @@ namespace plumbline::study
       if (needed.count(Capability::quadrilaterals) == 0)
         return all;
       Capabilities on_hexahedra; // those that are of lattices in space are not
-      for (const Capability one : {Capability::meshes, Capability::quadrilaterals,
-                                   Capability::nonlocal, Capability::space})
+      for (const Capability one :
+           {Capability::meshes, Capability::quadrilaterals, Capability::nonlocal,
+            Capability::dilatation, Capability::dynamic, Capability::space})
         if (all.count(one) > 0)
           on_hexahedra.insert(one);
       return on_hexahedra;

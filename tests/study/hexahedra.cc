@@ -1,6 +1,8 @@
 // Galerkin methods on hexahedra of gmsh files, from the scene to verdicts.
 #include "method/linear_equations.h"
 #include "scene/problem.h"
+#include "study/preflight.h"
+#include "study/transient.h"
 #include "tests/geometry/moved_hexahedra.h"
 #include "tests/geometry/tetrahedra_file.h"
 #include "tests/study/space_scene.h"
@@ -127,6 +129,22 @@ TEST_F(ProblemsOnHexahedra, take_methods_on_tetrahedra_and_meshfree_rules_too)
   EXPECT_LT(error_of(3, "IPA-AC-R2", "nodal Linf | exact",
                      with(linear, {{"Methods/nodes", "mesh"}, {"Study/m", "1.8"}})),
             1e-10);
+}
+
+TEST_F(ProblemsOnHexahedra, move_with_Q1_and_hold_fields_that_are_linear_in_space)
+{
+  const scene::Scene scene = make(3, {{"Problem/solution", "(1 + x)*sin(2*t) + y - z*t^2"},
+                                      {"Methods/names", "Q1, DGQ0"},
+                                      {"Study/norms", "nodal L2"},
+                                      {"Study/decisive error", "nodal L2 | exact"},
+                                      {"Time/final time", "0.5"},
+                                      {"Time/schemes", "Runge-Kutta"}});
+  const Methods methods = choose_methods(scene, available());
+  EXPECT_NO_THROW(check_memory_of_motion(scene, methods, 0));
+  const auto records = run_study(transient_analysis({}), scene, methods).records;
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_LT(records[0]["nodal L2 | exact"], 1e-9) << records[0].failure;
+  EXPECT_GT(records[1]["nodal L2 | exact"], 1e-4) << records[1].failure;
 }
 
 TEST_F(ProblemsOnHexahedra, are_refused_where_methods_or_settings_do_not_fit)

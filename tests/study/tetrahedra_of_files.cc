@@ -104,6 +104,7 @@ TEST_F(ProblemsOnTetrahedra, move_and_hold_fields_that_are_linear_in_space)
                                    {"Time/schemes", "Runge-Kutta"}});
   const Methods methods = choose_methods(scene, available());
   check_transient(scene, methods, 0);
+  EXPECT_NO_THROW(check_memory_of_motion(scene, methods, 0));
   const auto records = run_study(transient_analysis({}), scene, methods).records;
   ASSERT_EQ(records.size(), 2u);
   EXPECT_EQ(records[0].failure, "");
