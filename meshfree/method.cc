@@ -81,6 +81,17 @@ namespace plumbline::meshfree
         return can;
       }
 
+      /// Rules that adjust weights ask truncated families for the moments of whole balls.
+      method::Capabilities can_in_space() const override
+      {
+        method::Capabilities can = this->can();
+        constexpr double any = 1;
+        const auto kernel = Kernel<3>::with_diffusion(physics::RadialProfile({{any, 0}}), any, any);
+        if (rule_.in_space && rule_.in_space(kernel).adjust)
+          can.erase(method::Capability::free_boundary);
+        return can;
+      }
+
       std::unique_ptr<method::Discretisation>
       discretise(const problem::Problem<2> &problem,
                  const base::Communicator &communicator) const override

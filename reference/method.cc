@@ -73,16 +73,14 @@ namespace plumbline::reference
         if (all.count(Capability::space) == 0)
           return all;
         if (n_vertices_ == 3)
-        {
-          method::Capabilities some = {Capability::lattice,   Capability::meshes,
-                                       Capability::triangles, Capability::nonlocal,
-                                       Capability::dynamic,   Capability::space};
-          if (is_continuous_ || degree_ == 0)
-            some.insert(Capability::dilatation);
-          return some;
-        }
+          return {Capability::lattice,       Capability::meshes,     Capability::triangles,
+                  Capability::nonlocal,      Capability::dynamic,    Capability::space,
+                  Capability::heterogeneous, Capability::dilatation, Capability::free_boundary};
         if (!is_on_hexahedra())
           all.erase(Capability::quadrilaterals);
+        if (degree_ > 0)
+          for (const Capability capability : {Capability::heterogeneous, Capability::free_boundary})
+            all.erase(capability);
         return all;
       }
       std::string why_not_in_space(const physics::Kernel<3> &kernel, bool has_dilatation,

@@ -140,7 +140,8 @@ namespace plumbline::geometry
   }
 
   TetrahedralMesh six_per_hexahedron(std::vector<Point<3>> vertices, Hexahedra hexahedra,
-                                     const std::vector<char> &is_inside)
+                                     const std::vector<char> &is_inside,
+                                     const std::vector<unsigned int> &group)
   {
     TetrahedralMesh mesh{std::move(vertices), {}, {}, std::move(hexahedra)};
     for (std::size_t k = 0; k < mesh.hexahedra.size(); ++k)
@@ -158,6 +159,8 @@ namespace plumbline::geometry
           {
             mesh.cells.push_back({apex, ring[0], ring[second], ring[second + 1]});
             mesh.is_inside.push_back(is_inside[k]);
+            if (!group.empty())
+              mesh.group.push_back(group[k]);
           }
         }
     }
@@ -191,6 +194,7 @@ namespace plumbline::geometry
     std::vector<Point<3>> vertices = mesh.vertices;
     Hexahedra hexahedra;
     std::vector<char> is_inside;
+    std::vector<unsigned int> group;
     std::map<std::vector<unsigned int>, unsigned int> middles; // of edges, faces and cells
     for (std::size_t k = 0; k < mesh.hexahedra.size(); ++k)
     {
@@ -233,8 +237,13 @@ namespace plumbline::geometry
           hexahedra.back()[corner] = vertex_at(at);
         }
         is_inside.push_back(mesh.is_inside[n_in_hexahedron * k]);
+        if (!mesh.group.empty())
+          group.push_back(mesh.group[n_in_hexahedron * k]);
       }
     }
-    return six_per_hexahedron(std::move(vertices), std::move(hexahedra), is_inside);
+    TetrahedralMesh fine =
+        six_per_hexahedron(std::move(vertices), std::move(hexahedra), is_inside, group);
+    fine.groups = mesh.groups;
+    return fine;
   }
 } // namespace plumbline::geometry

@@ -44,9 +44,10 @@ namespace plumbline::geometry
   /// smallest number, over the three faces opposite to it. Each face is cut by the diagonal at its
   /// vertex of the smallest number, so that two hexahedra cut a common face alike (Dompierre et al.
   /// 1999, "How to subdivide pyramids, prisms and hexahedra into tetrahedra").
-  /// @param is_inside  of each hexahedron
+  /// @param is_inside, group  of each hexahedron; no group: there are none
   TetrahedralMesh six_per_hexahedron(std::vector<dealii::Point<3>> vertices, Hexahedra hexahedra,
-                                     const std::vector<char> &is_inside);
+                                     const std::vector<char> &is_inside,
+                                     const std::vector<unsigned int> &group = {});
 
   /// @throws InputError  a hexahedron that is degenerate or may be inverted in parts, naming its
   /// place

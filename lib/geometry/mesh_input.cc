@@ -252,8 +252,10 @@ namespace plumbline::geometry
         if (auto &cell = mesh.hexahedra[k];
             dealii::determinant(Hexahedron(mesh, k).jacobian(middle)) < 0)
           std::rotate(cell.begin(), cell.begin() + 4, cell.end());
-      return six_per_hexahedron(std::move(mesh.vertices), std::move(mesh.hexahedra),
-                                mesh.is_inside);
+      TetrahedralMesh cut = six_per_hexahedron(std::move(mesh.vertices), std::move(mesh.hexahedra),
+                                               mesh.is_inside, mesh.group);
+      cut.groups = std::move(mesh.groups);
+      return cut;
     }
 
     // ---- lattices -------------------------------------------------------------------------------

@@ -121,8 +121,12 @@ namespace plumbline::geometry
         TetrahedralMesh mesh;
         for (std::size_t k = 0; k < vertices_.size(); ++k)
           mesh.vertices.emplace_back(vertices_[k][0], vertices_[k][1], heights_[k]);
+        long last = 0; // physical groups are numbered from 1
         for (const msh::Cell &cell : cells_)
         {
+          if (cell.group != last)
+            mesh.groups.push_back(names_.at(last = cell.group));
+          mesh.group.push_back(static_cast<unsigned int>(mesh.groups.size() - 1));
           const auto &v = cell.vertex;
           mesh.is_inside.push_back(is_omega.at(cell.group) ? 1 : 0);
           if (cell.type == tetrahedron)

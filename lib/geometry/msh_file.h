@@ -26,7 +26,7 @@ namespace plumbline::geometry
 
   /// The same for tetrahedra or hexahedra of first order in physical volumes, in the order of the
   /// file's nodes, as they are: inverted ones, too. Of hexahedra the cells are left out, and
-  /// is_inside is theirs, see six_per_hexahedron.
+  /// is_inside and group are theirs, see six_per_hexahedron.
   /// @throws InputError  as read_msh, and other cells or cells of both kinds in physical volumes
   TetrahedralMesh read_msh_tetrahedra(const std::string &text, const std::string &source);
 } // namespace plumbline::geometry

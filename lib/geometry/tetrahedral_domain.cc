@@ -309,6 +309,7 @@ namespace plumbline::geometry
     if (!mesh.hexahedra.empty())
       return refine_hexahedra(mesh);
     TetrahedralMesh fine{mesh.vertices, {}, {}};
+    fine.groups = mesh.groups;
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
     const auto middle = [&](unsigned int a, unsigned int b)
     {
@@ -324,6 +325,8 @@ namespace plumbline::geometry
       {
         fine.cells.push_back(vertices);
         fine.is_inside.push_back(mesh.is_inside[cell]);
+        if (!mesh.group.empty())
+          fine.group.push_back(mesh.group[cell]);
         if (determinant(fine, fine.cells.size() - 1) < 0)
           std::swap(fine.cells.back()[2], fine.cells.back()[3]);
       };
@@ -372,6 +375,7 @@ namespace plumbline::geometry
                           [&](unsigned int vertex)
                           { return std::find(first.begin(), first.end(), vertex) != first.end(); });
     TetrahedralMesh result;
+    result.groups = mesh.groups;
     std::vector<unsigned int> number(order.size());
     for (std::size_t k = 0; k < order.size(); ++k)
     {
@@ -384,6 +388,8 @@ namespace plumbline::geometry
       for (unsigned int &vertex : result.cells.back())
         vertex = number[vertex];
       result.is_inside.push_back(mesh.is_inside[cell]);
+      if (!mesh.group.empty())
+        result.group.push_back(mesh.group[cell]);
     };
     for (const std::size_t cell : thin)
       add(cell);

@@ -3,6 +3,7 @@
 #include "geometry/cube_lattice.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace plumbline::geometry
@@ -19,6 +20,8 @@ namespace plumbline::geometry
     std::vector<char> is_inside;                    ///< the cell is in Ω, else in the collar
     /// Cells n_in_hexahedron k ... n_in_hexahedron k + 5 fill hexahedron k; empty: there are none.
     Hexahedra hexahedra = {};
+    std::vector<unsigned int> group = {}; ///< of each cell, among `groups`; empty: there are none
+    std::vector<std::string> groups = {}; ///< physical volumes of a file, by name
   };
 
   /// Tetrahedra in a hexahedron.

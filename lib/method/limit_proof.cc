@@ -155,9 +155,19 @@ namespace plumbline::method
 
   LimitProof limit_of(const problem::Problem<3> &problem, const LimitProof &of_families)
   {
-    if (problem.settings.tends_to_local_limit)
-      return of_families;
+    if (problem.settings.tends_to_local_limit && !problem.is_free)
+    {
+      LimitProof proof = of_families;
+      if (proof.answer == Answer::compatible && !problem.is_homogeneous())
+      {
+        proof.answer = Answer::unknown;
+        proof.reason += ", but the material is not known to be smooth";
+      }
+      return proof;
+    }
     LimitProof proof;
+    if (problem.is_free)
+      return proof;
     proof.ball_defect = of_families.ball_defect;
     proof.area_defect = of_families.area_defect;
     return proof;

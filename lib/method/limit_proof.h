@@ -29,7 +29,8 @@ namespace plumbline::method
   /// whole families are kept, for a method with them is not to be advised, but prove nothing.
   LimitProof limit_of(const problem::Problem<2> &problem, const LimitProof &of_families);
 
-  /// The same in space, where the material is homogeneous and nothing is broken.
+  /// The same in space, where nothing is broken. Nothing is said of bodies with free surfaces,
+  /// whose families are truncated.
   LimitProof limit_of(const problem::Problem<3> &problem, const LimitProof &of_families);
 
   /// A conforming Galerkin method of degree 1 or more. Its space holds the continuous piecewise

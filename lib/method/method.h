@@ -28,6 +28,7 @@ namespace plumbline::method
     double cell_area = 0;            ///< of a mesh, in the mean [length^2]
     unsigned int n_components = 1;
     bool is_body = false;        ///< with a free boundary
+    bool has_factors = false;    ///< of bonds, see problem::GroupFactors
     bool has_dilatation = false; ///< so that bonds are as long as two horizons
     bool is_scattered = false;   ///< meshfree nodes in a box in space that are not its lattice's
     bool is_box = false;         ///< in space: neither a union of boxes nor one with holes

@@ -4,6 +4,7 @@
 #include "geometry/node_cells.h"
 #include "geometry/tetrahedral_mesh.h"
 #include "physics/chebyshev_in_space.h"
+#include "physics/coefficient.h"
 #include "physics/kernel.h"
 #include "problem/problem.h"
 
@@ -32,9 +33,22 @@ namespace plumbline::problem
                               const std::vector<char> &is_wanted = {}) const;
   };
 
+  /// Factors of the kernel that are constant in each group of a mesh's cells.
+  struct GroupFactors
+  {
+    std::vector<double> of_group; ///< a > 0
+    physics::Mean kind = physics::Mean::arithmetic;
+
+    /// Of bonds between cells of two groups, or of one.
+    double between(unsigned int a, unsigned int b) const
+    {
+      return physics::mean(kind, of_group[a], of_group[b]);
+    }
+  };
+
   /// A boundary-value problem in space at one level: a homogeneous material on a union of boxes,
-  /// or on the cells of a mesh, with u given all around them. Fill in what it has, then complete()
-  /// it.
+  /// or on the cells of a mesh, with u given all around them; on a mesh bonds may have factors, and
+  /// the surface may be free. Fill in what it has, then complete() it.
   template <>
   struct Problem<3>
   {
@@ -51,6 +65,10 @@ namespace plumbline::problem
     MethodSettings settings = {};
     /// Ω and a layer at least a horizon wide around it; null: Ω is the lattice's cells.
     std::shared_ptr<const geometry::TetrahedralMesh> mesh = {};
+    std::optional<GroupFactors> factors = {}; ///< of bonds, by the mesh's groups; empty: 1
+    /// The body ends where the mesh does, and with it all families: u is given in the cells that
+    /// are not in Ω alone, which need not surround it.
+    bool is_free = false;
     /// Scattered nodes of meshfree methods; null: the centres of the lattice's cells. Galerkin
     /// methods and averages have the lattice all the same.
     std::shared_ptr<const geometry::NodeCells<3>> cells = {};
@@ -60,6 +78,7 @@ namespace plumbline::problem
 
     double h() const { return lattice.h(); }
     double horizon() const { return kernel.horizon(); }
+    bool is_homogeneous() const { return !factors; }
 
     /// How far bonds and dilatations reach from a point of Ω [length].
     double reach() const { return dilatation ? 2 * horizon() : horizon(); }
@@ -68,7 +87,7 @@ namespace plumbline::problem
 
   /// The problem with its fields as series where they are smooth, checked on samples.
   /// @throws InputError      neither a load nor a solution; values that are not finite in Ω or
-  /// within reach() around it
+  /// within reach() around it; no load, where bonds have factors or the surface is free
   /// @throws NumericalError  a load that cannot be manufactured, see physics::LoadInSpace
   Problem<3> complete(Problem<3> problem);
 

@@ -185,7 +185,10 @@ namespace plumbline::scene
   {
     const Model &model = *scene.material.model;
     const Capabilities needed = needs(scene);
-    if (const std::string why = refusal(scene, needed, model.can(), able(capable_models(), needed));
+    const bool is_in_space = scene.domain.is_in_space();
+    if (const std::string why =
+            refusal(scene, needed, is_in_space ? model.can_in_space() : model.can(),
+                    able(capable_models(is_in_space), needed));
         !why.empty())
       throw InputError("Material/model = " + model.name() + " does not support this scene: " + why);
   }

@@ -18,6 +18,8 @@ namespace plumbline::scene
     {
       const auto needs = [](bool is_good, const std::string &what)
       { require(is_good, "Domain/boundary = free needs " + what); };
+      if (scene.domain.is_in_space())
+        return; // see check_space
       needs(!scene.domain.mesh.is_lattice() ||
                 (scene.domain.boxes.include.size() == 1 && scene.domain.boxes.exclude.empty()),
             "one box (Domain/boxes) without holes where Domain/mesh = lattice; write squares or "

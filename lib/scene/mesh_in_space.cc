@@ -55,8 +55,9 @@ namespace plumbline::scene
                      (std::filesystem::path(scene.folder) / name).string(), level.h, level.horizon);
                });
     check_units(scene, level, *mesh);
-    saying("Domain/mesh = " + name,
-           [&] { geometry::check_collar(*mesh, scene.reach(level.horizon)); });
+    if (!scene.domain.is_free_body)
+      saying("Domain/mesh = " + name,
+             [&] { geometry::check_collar(*mesh, scene.reach(level.horizon)); });
     return mesh;
   }
 } // namespace plumbline::scene

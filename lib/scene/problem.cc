@@ -169,6 +169,9 @@ namespace plumbline::scene
                                    : scene.domain.cubes(level.h),
                               make_kernel_in_space(scene, level.horizon)};
     given.mesh = mesh;
+    if (mesh)
+      given.factors = make_factors(scene, *mesh);
+    given.is_free = mesh && scene.domain.is_free_body;
     given.dilatation = scene.material.model->dilatation_in_space(scene, level.horizon);
     given.settings = method_settings(scene);
     given.cells = same_cells;

@@ -29,9 +29,14 @@ namespace plumbline::scene
               "Domain/holes; write '0, 0, 0 : 1, 1, 1'");
       needs(!domain.mesh.is_curved, "Domain/sides = curved", "write straight");
       const bool is_fracture = scene.fracture.is_there(); // see check_fracture
-      needs(!domain.is_periodic && (!domain.is_free_body || is_fracture),
-            "Domain/boundary other than constrained",
-            "write constrained (free is for quasi-static fracture, section Fracture)");
+      needs(!domain.is_periodic, "Domain/boundary = periodic", "write constrained");
+      needs(!domain.is_free_body || is_fracture || domain.mesh.is_file(),
+            "Domain/boundary = free with Domain/mesh = " + domain.mesh.name,
+            "write constrained, or a file .msh or .geo, whose physical volumes collar... are where "
+            "u is prescribed (boxes with free surfaces are for fracture, section Fracture)");
+      require(!domain.is_free_body || is_fracture || (domain.fixed.empty() && !domain.is_floating),
+              "Domain/fixed is for lattices; in a body from Domain/mesh = " + domain.mesh.name +
+                  " u is prescribed in its physical volumes collar...: clear it");
       needs(domain.outside.empty() && (domain.cracks.empty() || is_fracture),
             "Domain/cracks and Domain/outside",
             "clear both (cracks are for quasi-static fracture, section Fracture)");
@@ -75,6 +80,17 @@ namespace plumbline::scene
             "Fracture/criterion = " + base::word(fracture.criterion), "write toughness");
     }
 
+    /// Materials that differ and free surfaces, of meshes.
+    void check_bodies_in_space(const Scene &scene)
+    {
+      const bool is_free = scene.domain.is_free_body && !scene.fracture.is_there();
+      if (!is_free && scene.kernel.materials.empty())
+        return;
+      const std::string given = is_free ? "Domain/boundary = free" : "Kernel/materials";
+      needs(!scene.problem.loads.empty(), given + " with a manufactured load",
+            "give Problem/load and Problem/constraint");
+    }
+
     void check_study_in_space(const Scene &scene)
     {
       const MaterialSection &material = scene.material;
@@ -96,8 +112,9 @@ namespace plumbline::scene
             "clear Crack and Strip");
       check_fracture_in_space(scene);
       check_nodes_in_space(scene);
-      needs(scene.kernel.coefficient.empty() && scene.kernel.materials.empty(),
-            "Kernel/coefficient and Kernel/materials", "clear both");
+      needs(scene.kernel.coefficient.empty(), "Kernel/coefficient",
+            "clear it (Kernel/materials: a coefficient for each physical volume of a mesh file)");
+      check_bodies_in_space(scene);
       needs(!scene.solver.is_full_model, "Solver/model = full", "write smallest");
       needs(scene.problem.local_solution != LocalSolution::computed,
             "Problem/local solution = computed", "write none, or an expression");

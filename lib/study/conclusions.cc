@@ -343,6 +343,11 @@ namespace plumbline::study
                scene.solver.operator_backend != base::OperatorBackend::sparse &&
                (!scene.domain.is_in_space() || scene.methods.nodes.are_lattice_centres()))
         results.omissions.push_back(omitted_matrix(*by_stencil));
+      if (scene.domain.is_in_space() && scene.domain.mesh.is_file() && scene.is_homogeneous() &&
+          !scene.domain.is_free_body)
+        results.omissions.push_back({"factors of bonds, and what shape functions jump by",
+                                     "the material is homogeneous, and u is prescribed all around",
+                                     "integrals with jumps, which take most of the time"});
       if (scene.solver.is_full_model)
       {
         results.omissions.clear();

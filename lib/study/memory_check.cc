@@ -26,6 +26,7 @@ namespace plumbline::study
       size.level = level;
       size.n_components = scene.n_components();
       size.is_body = scene.domain.is_free_body;
+      size.has_factors = !scene.kernel.materials.empty();
       size.has_dilatation = scene.has_dilatation();
       return size;
     }

@@ -22,11 +22,22 @@ namespace plumbline::meshfree
           : cells_(problem.cells), lattice_(problem.lattice), n_components_(problem.n_components)
       {
         FamilyStatistics<3> statistics(*cells_, problem.settings.ball_order);
+        const auto group = [&](std::size_t node)
+        {
+          const std::size_t n_parts = // of the cell
+              problem.mesh->hexahedra.empty() ? 1 : geometry::n_in_hexahedron;
+          return problem.mesh->group[n_parts * cells_->source[node]];
+        };
         method::PartitionedRows rows = method::part(
             bond_rows<3>([&](std::size_t i, Family<3> &family) { families.make(i, family); },
                          problem.kernel, n_components_, {0, cells_->n_free},
-                         [&](std::size_t i, const Family<3> &family, std::vector<double> &)
-                         { statistics.add(problem.kernel, cells_->nodes[i], family); }),
+                         [&](std::size_t i, const Family<3> &family, std::vector<double> &factors)
+                         {
+                           statistics.add(problem.kernel, cells_->nodes[i], family);
+                           for (std::size_t k = 0; problem.factors && k < factors.size(); ++k)
+                             factors[k] =
+                                 problem.factors->between(group(i), group(family.neighbours[k]));
+                         }),
             n_unknowns());
         free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
         constrained_ = std::move(rows.constrained);

@@ -672,7 +672,7 @@ namespace plumbline::reference
                                        const std::optional<physics::Dilatation<3>> &dilatation)
   {
     if (!space.is_continuous() && space.degree() == 1)
-      return assemble_with_jumps(space, kernel, n_rows, rule, use);
+      return assemble_with_jumps(space, kernel, n_rows, rule, use, dilatation);
     const SolidKernel parts(kernel, dilatation);
     return parts.parts.size() == 1 ? assemble<double>(space, parts, n_rows, rule, use)
                                    : assemble<Block>(space, parts, n_rows, rule, use);

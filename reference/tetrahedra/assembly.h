@@ -54,7 +54,7 @@ namespace plumbline::reference
   /// homogeneous dilatation is added to them. Entries are exact to round-off, or up to the
   /// quadrature over pairs of faces; all else is exact, so that rows annihilate constants, and
   /// those of continuous functions linear fields, to round-off. Symmetric to the last bit. Linear
-  /// functions that are not continuous: assemble_with_jumps(), for scalar kernels.
+  /// functions that are not continuous: assemble_with_jumps().
   /// @pre  rows of unknowns whose supports are the reach of the kernel (with a dilatation two
   /// horizons) or more from the outside of the mesh; a kernel that FacePotential takes
   algebra::CsrMatrix

@@ -11,6 +11,7 @@
 #include "reference/tetrahedra/face_potential.h"
 #include "reference/tetrahedra/field.h"
 #include "reference/tetrahedra/hexahedra.h"
+#include "reference/tetrahedra/jump_assembly.h"
 #include "reference/tetrahedra/mass.h"
 #include "reference/tetrahedra/repeated_rows.h"
 
@@ -292,7 +293,9 @@ namespace plumbline::reference
       algebra::CsrMatrix make_rows(const problem::Problem<3> &problem)
       {
         const TetrahedralShapes &shapes = space_->shapes();
-        const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
+        const BondFactors factors(problem, space_->mesh());
+        const bool has_jumps =
+            shapes.degree > 0 && (!shapes.is_continuous || !factors.are_all_one());
         FaceRule exact = FaceRule::exact();
         exact.spacing = problem.h(); // parts of meshes may be lattices, too
         FaceRule check = FaceRule::quadrature(1);
@@ -320,11 +323,18 @@ namespace plumbline::reference
           check.tolerance = of_meshes;
           exact.of_jumps *= 10;
           check.of_jumps *= 10;
-          matrix = assemble_by_faces(*space_, problem.kernel, space_->n_free(), exact, &use,
-                                     problem.dilatation);
-          change = difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check,
-                                                nullptr, problem.dilatation),
-                              matrix);
+          if (shapes.degree > 0 && !factors.are_all_one())
+            matrix = rows_with_factors(problem, factors, exact, check, use, change);
+          else
+          {
+            matrix = assemble_by_faces(*space_, problem.kernel, space_->n_free(), exact, &use,
+                                       problem.dilatation);
+            change = difference(assemble_by_faces(*space_, problem.kernel, n_sampled(), check,
+                                                  nullptr, problem.dilatation),
+                                matrix);
+            if (!factors.are_all_one())
+              set_factors_of_cells(factors, *space_, n_components_, matrix);
+          }
         }
         constexpr double most_error = 1e-10;
         const double most_change = has_jumps ? 1e-3 : .25;
@@ -344,6 +354,30 @@ namespace plumbline::reference
         note(use, change, has_jumps);
         diagnostics_.notes.back() += FacePotential::note(problem.kernel);
         return matrix;
+      }
+
+      /// Rows of linear functions with bonds that have factors.
+      /// @param change  of a sample of entries by the check
+      algebra::CsrMatrix rows_with_factors(const problem::Problem<3> &problem,
+                                           const BondFactors &factors, const FaceRule &exact,
+                                           const FaceRule &check, FaceRuleUse &use,
+                                           double &change) const
+      {
+        const bool is_continuous = space_->is_continuous();
+        const TetrahedralSpace broken(std::make_shared<const TetrahedralMesh>(space_->mesh()),
+                                      TetrahedralShapes::discontinuous_linear());
+        const auto rows = [&](std::size_t n_rows, const FaceRule &rule, FaceRuleUse *how)
+        {
+          return is_continuous
+                     ? assemble_interfaces(broken, problem.kernel, n_rows, rule, how, factors)
+                     : assemble_with_jumps(broken, problem.kernel, n_rows, rule, how, {}, &factors);
+        };
+        algebra::CsrMatrix matrix = rows(broken.n_free(), exact, &use);
+        change = difference(
+            rows(std::min(n_sampled_cells * broken.shapes().n_per_cell(), broken.n_free()), check,
+                 nullptr),
+            matrix);
+        return is_continuous ? joined(*space_, broken, n_components_, matrix) : matrix;
       }
 
       /// Pairs whose quadrature did not reach its tolerance, if there are any.
@@ -382,10 +416,12 @@ namespace plumbline::reference
       /// Rows for a check: the thinnest cells come first.
       std::size_t n_sampled() const
       {
-        constexpr std::size_t n = 4; // vertices or cells
-        return std::min(n * (space_->is_continuous() ? 1 : space_->shapes().n_per_cell()),
+        return std::min(n_sampled_cells *
+                            (space_->is_continuous() ? 1 : space_->shapes().n_per_cell()),
                         space_->n_free());
       }
+
+      static constexpr std::size_t n_sampled_cells = 4; ///< or vertices
 
       geometry::CubeLattice lattice_;
       bool is_of_cubes_; ///< the mesh is that of the lattice
@@ -401,10 +437,9 @@ namespace plumbline::reference
   std::string refuse_tetrahedra(const physics::Kernel<3> &kernel, bool has_dilatation,
                                 TetrahedralShapes shapes)
   {
-    const bool has_jumps = !shapes.is_continuous && shapes.degree > 0;
-    if (kernel.structure() == physics::Structure::tensor && (shapes.is_trilinear() || has_jumps))
+    if (kernel.structure() == physics::Structure::tensor && shapes.is_trilinear())
       return "bond tensors and state-based solids have entries on tetrahedra and hexahedra by P1, "
-             "DGP0 and DGQ0; take these";
+             "DGP0, DGP1 and DGQ0; take these";
     if (has_dilatation && !FacePotential::has_power_parts(kernel.profile()))
       return "dilatations have entries on tetrahedra and hexahedra for influence functions that "
              "are sums of powers of r without a constant; write Kernel/type = 1/r, or polynomial "
@@ -424,6 +459,8 @@ namespace plumbline::reference
 
   double expected_bytes_on_tetrahedra(const method::ProblemSize &size, TetrahedralShapes shapes)
   {
+    if (shapes.is_continuous && !shapes.is_on_hexahedra && (size.has_factors || size.is_body))
+      return expected_bytes_on_tetrahedra(size, TetrahedralShapes::discontinuous_linear());
     // entries of 12 bytes, for a while whole and parted; cells of the mesh; on moved meshes also
     // what all faces keep, and rows of faces that are assembled at a time; measured, but for
     // trilinear functions, where they are counted
@@ -448,10 +485,11 @@ namespace plumbline::reference
                                           : n_near;
     // 12 faces per vertex, with half of those around them
     const double n_pairs = 72 * 4 * M_PI / 3 * std::pow(reach + 1, 3);
-    // with jumps, two cells' blocks of 136 bytes by half of the cells about a face, in vectors that
-    // have grown: 256 faces at a time, on a lattice only those of one cube, see RepeatedRows
-    constexpr double of_block = 136, grown = 1.5, n_at_once = 256, n_of_cube = 18;
-    const double of_face = of_block * grown * n_columns / shapes.n_per_cell(),
+    // with jumps, two cells' blocks of 16 entries by half of the cells about a face, in vectors
+    // that have grown: 256 faces at a time, on a lattice only those of one cube, see RepeatedRows
+    constexpr double grown = 1.5, n_at_once = 256, n_of_cube = 18;
+    const double of_block = 8 + 128 * std::pow(size.n_components, 2),
+                 of_face = of_block * grown * n_columns / shapes.n_per_cell(),
                  of_lattice_faces = has_jumps ? n_of_cube * of_face : 0,
                  of_scattered_faces = has_jumps                ? n_at_once * of_face
                                       : size.n_components == 1 ? 6e7

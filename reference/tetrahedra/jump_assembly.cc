@@ -2,16 +2,23 @@
 
 #include "geometry/search.h"
 #include "geometry/tetrahedral_check.h"
+#include "geometry/tetrahedral_domain.h"
 #include "reference/tetrahedra/exact_pairs.h"
 #include "reference/tetrahedra/jump_pairs.h"
 #include "reference/tetrahedra/lattice_faces.h"
+#include "reference/tetrahedra/layer_flux.h"
+#include "reference/tetrahedra/solid_kernel.h"
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/base/parallel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -24,17 +31,66 @@ namespace plumbline::reference
     using dealii::Tensor;
 
     constexpr unsigned int n_corners = 4;
-    using Matrix = std::array<std::array<double, n_corners>, n_corners>;
+
+    /// Of two unknowns, components c and d: entries of bond tensors.
+    using Tensor2 = Tensor<2, 3>;
+
+    template <class Value>
+    constexpr unsigned int n_components = 1;
+    template <>
+    constexpr unsigned int n_components<Tensor2> = 3;
+
+    double transposed(double value)
+    {
+      return value;
+    }
+    Tensor2 transposed(const Tensor2 &value)
+    {
+      return transpose(value);
+    }
+
+    double component(double value, unsigned int, unsigned int)
+    {
+      return value;
+    }
+    double component(const Tensor2 &value, unsigned int c, unsigned int d)
+    {
+      return value[c][d];
+    }
+
+    /// What the kernel's parts, see SolidKernel, multiply for ∇φ_i and ∇φ_j.
+    void add_product(double &sum, const std::array<double, 2> &parts, const Tensor<1, 3> &i,
+                     const Tensor<1, 3> &j)
+    {
+      sum += parts[0] * (i * j);
+    }
+    void add_product(Tensor2 &sum, const std::array<double, 2> &parts, const Tensor<1, 3> &i,
+                     const Tensor<1, 3> &j)
+    {
+      const double isotropic = parts[0] * (i * j);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        sum[c][c] += isotropic;
+        for (unsigned int d = 0; d < 3; ++d)
+          sum[c][d] += parts[1] * (i[c] * j[d]);
+      }
+    }
+
+    template <class Value>
+    using Matrix = std::array<std::array<Value, n_corners>, n_corners>;
 
     /// Entries of the unknowns of two cells.
+    template <class Value>
     struct Block
     {
       unsigned int cell = 0; ///< the column's
-      Matrix value{};
+      Matrix<Value> value{};
     };
-    using BlockRow = std::vector<Block>; ///< cells ascending, each once
+    template <class Value>
+    using BlockRow = std::vector<Block<Value>>; ///< cells ascending, each once
 
-    void add(Matrix &to, const Matrix &value)
+    template <class Value>
+    void add(Matrix<Value> &to, const Matrix<Value> &value)
     {
       for (unsigned int a = 0; a < n_corners; ++a)
         for (unsigned int b = 0; b < n_corners; ++b)
@@ -42,18 +98,19 @@ namespace plumbline::reference
     }
 
     /// row += other.
-    void add(BlockRow &row, const BlockRow &other)
+    template <class Value>
+    void add(BlockRow<Value> &row, const BlockRow<Value> &other)
     {
-      BlockRow sum;
+      BlockRow<Value> sum;
       sum.reserve(row.size() + other.size());
       auto here = row.begin();
-      for (const Block &block : other)
+      for (const Block<Value> &block : other)
       {
         while (here != row.end() && here->cell < block.cell)
           sum.push_back(*here++);
         sum.push_back(block);
         if (here != row.end() && here->cell == block.cell)
-          add(sum.back().value, here++->value);
+          add<Value>(sum.back().value, here++->value);
       }
       sum.insert(sum.end(), here, row.end());
       row = std::move(sum);
@@ -63,6 +120,7 @@ namespace plumbline::reference
     struct JumpSide
     {
       unsigned int cell = 0;              ///< its number among the space's
+      std::size_t mesh_cell = 0;          ///< and in the mesh
       double sign = 0;                    ///< 1 where the normal points to, -1 on the other side
       std::array<int, n_corners> place{}; ///< of corners among the face's vertices, or -1
       std::array<Tensor<1, 3>, n_corners> slopes{}; ///< ∇λ [1 / horizon]
@@ -74,9 +132,14 @@ namespace plumbline::reference
       Tensor<1, 3> normal;
       boost::container::static_vector<JumpSide, 2> sides;
       double steepest = 0; ///< the largest |∇λ|
+      /// Factors of bonds differ on its sides; where functions are continuous elsewhere, their
+      /// values jump there alone.
+      bool is_interface = false, has_jumps = true;
     };
 
-    std::vector<JumpFace> make_jump_faces(const TetrahedralSpace &space, double horizon)
+    /// @param factors  of bonds; null: all are 1
+    std::vector<JumpFace> make_jump_faces(const TetrahedralSpace &space, double horizon,
+                                          const BondFactors *factors, bool is_continuous)
     {
       const TetrahedralMesh &mesh = space.mesh();
       const std::vector<geometry::TetrahedralSide> sides = geometry::sides_of(mesh);
@@ -90,11 +153,12 @@ namespace plumbline::reference
           for (unsigned int v = 0; v < 3; ++v)
             x[v] = Point<3>((mesh.vertices[side.key[v]] - mesh.vertices.front()) / horizon);
           const Tensor<1, 3> area = cross_product_3d(x[1] - x[0], x[2] - x[0]);
-          faces.push_back({PairFace(x, side.key), area / area.norm(), {}, 0});
+          faces.push_back({PairFace(x, side.key), area / area.norm(), {}, 0, false, true});
         }
         JumpFace &face = faces.back();
         JumpSide own;
         own.cell = space.dof(side.cell, 0) / n_corners;
+        own.mesh_cell = side.cell;
         own.slopes = gradients(mesh, side.cell);
         own.sign = own.slopes[side.opposite] * face.normal > 0 ? 1 : -1;
         for (unsigned int corner = 0; corner < n_corners; ++corner)
@@ -108,6 +172,15 @@ namespace plumbline::reference
         }
         face.sides.push_back(own);
       }
+      for (JumpFace &face : faces)
+      {
+        const bool is_outside = face.sides.size() == 1;
+        face.is_interface =
+            factors != nullptr &&
+            (is_outside ? factors->is_surface_free()
+                        : !factors->are_alike(face.sides[0].mesh_cell, face.sides[1].mesh_cell));
+        face.has_jumps = !is_continuous || face.is_interface;
+      }
       return faces;
     }
 
@@ -119,59 +192,78 @@ namespace plumbline::reference
       return boxes;
     }
 
-    /// All integrals of a pair of faces.
-    struct PairIntegrals
+    /// All integrals of a pair of faces, of one part of a kernel.
+    struct PartIntegrals
     {
       ExactPairs::Integral slopes; ///< ∬Ψ
       JumpIntegrals jumps;
     };
+    using PairIntegrals = std::array<PartIntegrals, 2>; ///< of as many parts as there are
 
     /// What the pair adds to entries of a cell of F and one of G.
-    Matrix block_of(const JumpFace &f, const JumpSide &of_f, const JumpFace &g,
-                    const JumpSide &of_g, const PairIntegrals &pair, double factor)
+    template <class Value>
+    Matrix<Value> block_of(const JumpFace &f, const JumpSide &of_f, const JumpFace &g,
+                           const JumpSide &of_g, const PairIntegrals &pair, double factor)
     {
       const double cosine = f.normal * g.normal;
-      Matrix block{};
+      const auto parts = [&](const auto &integral) -> std::array<double, 2> {
+        return {integral(pair[0]), integral(pair[1])};
+      };
+      const auto slopes =
+          parts([&](const PartIntegrals &part) { return -cosine * part.slopes.value; });
+      Matrix<Value> block{};
       for (unsigned int a = 0; a < n_corners; ++a)
         for (unsigned int b = 0; b < n_corners; ++b)
         {
           const int at = of_f.place[a], other = of_g.place[b];
-          double sum = -cosine * (of_f.slopes[a] * of_g.slopes[b]) * pair.slopes.value;
+          const auto i = static_cast<std::size_t>(at), j = static_cast<std::size_t>(other);
+          Value sum{};
+          add_product(sum, slopes, of_f.slopes[a], of_g.slopes[b]);
           if (other >= 0)
-            sum += (of_f.slopes[a] * g.normal) * pair.jumps.second[static_cast<std::size_t>(other)];
+            add_product(sum, parts([j](const PartIntegrals &part) { return part.jumps.second[j]; }),
+                        of_f.slopes[a], g.normal);
           if (at >= 0)
-            sum += (of_g.slopes[b] * f.normal) * pair.jumps.first[static_cast<std::size_t>(at)];
+            add_product(sum, parts([i](const PartIntegrals &part) { return part.jumps.first[i]; }),
+                        f.normal, of_g.slopes[b]);
           if (at >= 0 && other >= 0)
-            sum += cosine *
-                   pair.jumps.values[static_cast<std::size_t>(at)][static_cast<std::size_t>(other)];
-          block[a][b] = factor * of_f.sign * of_g.sign * sum;
+            add_product(
+                sum, parts([i, j](const PartIntegrals &part) { return part.jumps.values[i][j]; }),
+                f.normal, g.normal);
+          sum *= factor * of_f.sign * of_g.sign;
+          block[a][b] = sum;
         }
       return block;
     }
 
     /// Sums over the faces G about a face F, each pair once: the matrix is the sum and its
     /// transpose.
+    template <class Value>
     class JumpRows
     {
     public:
-      JumpRows(const TetrahedralSpace &space, const physics::Kernel<3> &kernel, std::size_t n_rows,
-               const FaceRule &rule)
-          : n_needed_(n_rows / n_corners), faces_(make_jump_faces(space, kernel.horizon())),
-            n_cells_(space.mesh().cells.size()), spacing_(rule.spacing / kernel.horizon()),
-            potential_(kernel, FacePotential::Kind::biharmonic), search_(boxes_of(faces_))
+      JumpRows(const TetrahedralSpace &space, const SolidKernel &kernel, std::size_t n_rows,
+               const FaceRule &rule, const BondFactors *factors, bool is_continuous)
+          : n_needed_(n_rows / n_corners),
+            faces_(make_jump_faces(space, kernel.reach, factors, is_continuous)),
+            n_cells_(space.mesh().cells.size()), spacing_(rule.spacing / kernel.reach),
+            search_(boxes_of(faces_))
       {
         double volume = 0;
         for (std::size_t cell = 0; cell < n_cells_; ++cell)
-          volume += determinant(space.mesh(), cell) / 6 / std::pow(kernel.horizon(), 3);
-        const double m0 = 4 * M_PI * kernel.profile().moment(2);
+          volume += determinant(space.mesh(), cell) / 6 / std::pow(kernel.reach, 3);
         const double of_cell = volume / static_cast<double>(n_cells_);
         constexpr double of_slopes = 2. / 3; // ∇λ are like 1 / length
-        jumps_.emplace(kernel, rule.of_jumps * m0 * of_cell);
-        if (rule.is_exact)
-          exact_.emplace(kernel, FacePotential::Kind::biharmonic,
-                         rule.tolerance * m0 * of_cell * std::pow(of_cell, of_slopes));
-        else
-          by_rule_.emplace(potential_, rule.refinement);
+        for (const PotentialKernel &part : kernel.parts)
+        {
+          potentials_.emplace_back(part, FacePotential::Kind::biharmonic);
+          jumps_.emplace_back(part, rule.of_jumps * kernel.m0 * of_cell);
+          if (rule.is_exact)
+            exact_.push_back(std::make_unique<const ExactPairs>(
+                part, FacePotential::Kind::biharmonic,
+                rule.tolerance * kernel.m0 * of_cell * std::pow(of_cell, of_slopes)));
+          else
+            by_rule_.emplace_back(potentials_.back(), rule.refinement);
+        }
         for (const JumpFace &face : faces_)
           is_needed_.push_back(std::any_of(face.sides.begin(), face.sides.end(),
                                            [this](const JumpSide &side)
@@ -182,7 +274,13 @@ namespace plumbline::reference
 
       const std::vector<JumpFace> &faces() const { return faces_; }
       std::size_t n_cells() const { return n_cells_; }
-      double diffusion() const { return potential_.diffusion(); }
+      const geometry::BoxSearch<3> &search() const { return search_; }
+      std::size_t n_parts() const { return potentials_.size(); }
+      /// Of each part.
+      std::array<double, 2> diffusion() const
+      {
+        return {potentials_.front().diffusion(), potentials_.back().diffusion()};
+      }
 
       /// What a thread needs for itself.
       struct Workspace
@@ -193,10 +291,10 @@ namespace plumbline::reference
       };
 
       /// For each cell of a face, what it adds to the cell's rows.
-      std::array<BlockRow, 2> rows_of(std::size_t face, Workspace &work) const
+      std::array<BlockRow<Value>, 2> rows_of(std::size_t face, Workspace &work) const
       {
         const JumpFace &f = faces_[face];
-        std::array<BlockRow, 2> rows;
+        std::array<BlockRow<Value>, 2> rows;
         work.place.resize(n_cells_);
         geometry::Cuboid box = search_.box(static_cast<unsigned int>(face));
         for (unsigned int d = 0; d < 3; ++d)
@@ -217,17 +315,17 @@ namespace plumbline::reference
           {
             if (work.place[of_g.cell] == 0)
             {
-              for (BlockRow &row : rows)
+              for (BlockRow<Value> &row : rows)
                 row.push_back({of_g.cell, {}});
               work.place[of_g.cell] = static_cast<unsigned int>(rows[0].size());
             }
             for (std::size_t side = 0; side < f.sides.size(); ++side)
-              add(rows[side][work.place[of_g.cell] - 1].value,
-                  block_of(f, f.sides[side], g, of_g, pair, other == face ? .5 : 1));
+              add<Value>(rows[side][work.place[of_g.cell] - 1].value,
+                         block_of<Value>(f, f.sides[side], g, of_g, pair, other == face ? .5 : 1));
           }
         }
         work.use.open = std::max(work.use.open, work.open);
-        for (const Block &block : rows[0])
+        for (const Block<Value> &block : rows[0])
           work.place[block.cell] = 0;
         for (std::size_t side = 0; side < f.sides.size(); ++side)
           arrange(rows[side], f.sides[side].cell < n_needed_);
@@ -236,50 +334,64 @@ namespace plumbline::reference
 
     private:
       /// @param is_needed  else columns that are
-      void arrange(BlockRow &row, bool is_needed) const
+      void arrange(BlockRow<Value> &row, bool is_needed) const
       {
         if (!is_needed)
           row.erase(std::remove_if(row.begin(), row.end(),
-                                   [this](const Block &block) { return block.cell >= n_needed_; }),
+                                   [this](const Block<Value> &block)
+                                   { return block.cell >= n_needed_; }),
                     row.end());
         std::sort(row.begin(), row.end(),
-                  [](const Block &a, const Block &b) { return a.cell < b.cell; });
+                  [](const Block<Value> &a, const Block<Value> &b) { return a.cell < b.cell; });
       }
 
       PairIntegrals integrate(const JumpFace &f, const JumpFace &g, Workspace &work) const
       {
         PairIntegrals pair;
-        if (const auto places = spacing_ > 0 ? places_on_lattice(f.face, g.face, spacing_)
-                                             : std::optional<FacePlaces>())
+        const bool has_jumps = f.has_jumps || g.has_jumps;
+        if (const auto places = spacing_ > 0 && has_jumps
+                                    ? places_on_lattice(f.face, g.face, spacing_)
+                                    : std::optional<FacePlaces>())
           pair = known(*places, work);
         else
         {
-          pair = make(f.face, g.face);
+          pair = make(f.face, g.face, has_jumps);
           count(pair, work);
         }
-        // see block_of(): λ_a of one face by slopes of the other's cells
-        if (pair.jumps.open > 0)
-          work.open +=
-              pair.jumps.open * (1 + f.face.radius() * g.steepest + g.face.radius() * f.steepest);
-        work.use.error = std::max(work.use.error, pair.slopes.error * f.steepest * g.steepest);
+        for (std::size_t part = 0; part < n_parts(); ++part)
+        {
+          const auto &[slopes, jumps] = pair[part];
+          // see block_of(): λ_a of one face by slopes of the other's cells
+          if (jumps.open > 0)
+            work.open +=
+                jumps.open * (1 + f.face.radius() * g.steepest + g.face.radius() * f.steepest);
+          work.use.error = std::max(work.use.error, slopes.error * f.steepest * g.steepest);
+        }
         return pair;
       }
 
-      static void count(const PairIntegrals &pair, Workspace &work)
+      void count(const PairIntegrals &pair, Workspace &work) const
       {
-        ++work.use.n_pairs[pair.slopes.level];
-        if (pair.jumps.open > 0)
-          ++work.use.n_open;
+        for (std::size_t part = 0; part < n_parts(); ++part)
+        {
+          ++work.use.n_pairs[pair[part].slopes.level];
+          if (pair[part].jumps.open > 0)
+            ++work.use.n_open;
+        }
       }
 
-      PairIntegrals make(const PairFace &f, const PairFace &g) const
+      PairIntegrals make(const PairFace &f, const PairFace &g, bool has_jumps) const
       {
         PairIntegrals pair;
-        if (exact_)
-          pair.slopes = (*exact_)(f, g);
-        else
-          pair.slopes.value = (*by_rule_)(f, g);
-        pair.jumps = (*jumps_)(f, g);
+        for (std::size_t part = 0; part < n_parts(); ++part)
+        {
+          if (!exact_.empty())
+            pair[part].slopes = (*exact_[part])(f, g);
+          else
+            pair[part].slopes.value = by_rule_[part](f, g);
+          if (has_jumps)
+            pair[part].jumps = jumps_[part](f, g);
+        }
         return pair;
       }
 
@@ -292,7 +404,7 @@ namespace plumbline::reference
             return found->second;
         }
         const auto [f, g] = faces_at(places, spacing_);
-        const PairIntegrals pair = make(f, g);
+        const PairIntegrals pair = make(f, g, true);
         const std::lock_guard<std::mutex> lock(mutex_);
         if (known_.try_emplace(places, pair).second)
           count(pair, work);
@@ -302,11 +414,11 @@ namespace plumbline::reference
       std::size_t n_needed_; ///< cells whose rows are asked for
       std::vector<JumpFace> faces_;
       std::size_t n_cells_;
-      double spacing_; ///< [horizons]
-      FacePotential potential_;
-      std::optional<JumpPairs> jumps_;
-      std::optional<FacePairs> by_rule_;
-      std::optional<ExactPairs> exact_;
+      double spacing_;                       ///< [reaches]
+      std::deque<FacePotential> potentials_; ///< of each part, as the next ones
+      std::vector<JumpPairs> jumps_;
+      std::vector<FacePairs> by_rule_;
+      std::vector<std::unique_ptr<const ExactPairs>> exact_;
       mutable std::map<FacePlaces, PairIntegrals> known_;
       mutable std::mutex mutex_;    ///< of what is known
       std::vector<char> is_needed_; ///< faces of cells that are
@@ -314,23 +426,29 @@ namespace plumbline::reference
     };
 
     /// rows += ½κ ∫ g_i·g_j + κ Σ_F ∫_F n·{g_i} [φ_j], of which the matrix has the transpose, too.
-    void add_local(const TetrahedralSpace &space, double horizon, const JumpRows &of_face,
-                   std::vector<BlockRow> &rows, std::size_t n_needed)
+    template <class Value>
+    void add_local(const TetrahedralSpace &space, double reach, const JumpRows<Value> &of_face,
+                   std::vector<BlockRow<Value>> &rows, std::size_t n_needed)
     {
       constexpr double half = .5, third = 1. / 3;
+      const std::array<double, 2> diffusion = of_face.diffusion();
+      const auto times = [&](double factor) -> std::array<double, 2> {
+        return {factor * diffusion[0], factor * diffusion[1]};
+      };
       for (const JumpFace &face : of_face.faces())
         for (const JumpSide &own : face.sides)
           for (const JumpSide &other : face.sides)
           {
             if (own.cell >= n_needed && other.cell >= n_needed)
               continue;
-            Block block{other.cell, {}};
+            Block<Value> block{other.cell, {}};
             for (unsigned int a = 0; a < n_corners; ++a)
               for (unsigned int b = 0; b < n_corners; ++b)
                 if (other.place[b] >= 0)
-                  block.value[a][b] = of_face.diffusion() * half * (own.slopes[a] * face.normal) *
-                                      other.sign * face.face.area() * third;
-            add(rows[own.cell], BlockRow{block});
+                  add_product(block.value[a][b],
+                              times(half * other.sign * face.face.area() * third), own.slopes[a],
+                              face.normal);
+            add(rows[own.cell], BlockRow<Value>{block});
           }
       const TetrahedralMesh &mesh = space.mesh();
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
@@ -339,109 +457,445 @@ namespace plumbline::reference
         if (number >= n_needed)
           continue;
         const auto slopes = gradients(mesh, cell);
-        Block block{number, {}};
+        Block<Value> block{number, {}};
         for (unsigned int a = 0; a < n_corners; ++a)
           for (unsigned int b = 0; b < n_corners; ++b)
-            block.value[a][b] = half * of_face.diffusion() * determinant(mesh, cell) / 6 / horizon *
-                                (slopes[a] * slopes[b]);
-        add(rows[number], BlockRow{block});
+            add_product(block.value[a][b], times(half * determinant(mesh, cell) / 6 / reach),
+                        slopes[a], slopes[b]);
+        add(rows[number], BlockRow<Value>{block});
       }
     }
 
-    /// The sum of it and its transpose.
-    void make_symmetric(std::vector<BlockRow> &rows, std::size_t n_needed)
+    /// Symmetric in the components, as the exact entries are.
+    void make_symmetric(double &) {}
+    void make_symmetric(Tensor2 &value)
     {
-      std::vector<BlockRow> transposed(n_needed);
+      constexpr double half = .5;
+      value = half * (value + transpose(value));
+    }
+
+    /// The sum of it and its transpose.
+    template <class Value>
+    void make_symmetric(std::vector<BlockRow<Value>> &rows, std::size_t n_needed)
+    {
+      std::vector<BlockRow<Value>> others(n_needed);
       for (std::size_t row = 0; row < rows.size(); ++row)
-        for (const Block &block : rows[row])
+        for (const Block<Value> &block : rows[row])
           if (block.cell < n_needed)
           {
-            Block other{static_cast<unsigned int>(row), {}};
+            Block<Value> other{static_cast<unsigned int>(row), {}};
             for (unsigned int a = 0; a < n_corners; ++a)
               for (unsigned int b = 0; b < n_corners; ++b)
-                other.value[b][a] = block.value[a][b];
-            transposed[block.cell].push_back(other);
+                other.value[b][a] = transposed(block.value[a][b]);
+            others[block.cell].push_back(other);
           }
       rows.resize(n_needed);
       for (std::size_t row = 0; row < n_needed; ++row)
       {
-        add(rows[row], transposed[row]);
-        transposed[row] = {};
+        add(rows[row], others[row]);
+        others[row] = {};
+        for (Block<Value> &block : rows[row])
+          for (auto &of_corner : block.value)
+            for (Value &value : of_corner)
+              make_symmetric(value);
       }
     }
 
-    double least_diagonal(const std::vector<BlockRow> &rows)
+    template <class Value>
+    double least_diagonal(const std::vector<BlockRow<Value>> &rows)
     {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t row = 0; row < rows.size(); ++row)
-        for (const Block &block : rows[row])
+        for (const Block<Value> &block : rows[row])
           for (unsigned int a = 0; a < n_corners && block.cell == row; ++a)
-            least = std::min(least, block.value[a][a]);
+            for (unsigned int c = 0; c < n_components<Value>; ++c)
+              least = std::min(least, component(block.value[a][a], c, c));
       return least;
     }
 
-    algebra::CsrMatrix to_matrix(const std::vector<BlockRow> &rows, double factor)
+    /// matrix -= ∫ λ_a λ_b e over a cell, where e is linear and ∫ λ_a e = sums[a].
+    template <class Value>
+    void subtract_linear_part(double volume, const std::array<Value, n_corners> &sums,
+                              Matrix<Value> &matrix)
     {
-      algebra::CsrMatrix matrix;
-      matrix.start.push_back(0);
-      for (const BlockRow &row : rows)
-        for (unsigned int a = 0; a < n_corners; ++a)
+      // ∫ λ_a λ_b = V (1 + δ_ab) / 20, ∫ λ_a λ_b λ_c = V / 120 times the factorials of powers
+      constexpr double of_two = 20, of_three = 120, fifth = .2;
+      Value total{};
+      for (const Value &sum : sums)
+        total += sum;
+      for (unsigned int a = 0; a < n_corners; ++a)
+        for (unsigned int b = 0; b < n_corners; ++b)
+          for (unsigned int c = 0; c < n_corners; ++c)
+          {
+            const Value at_corner = (of_two / volume) * (sums[c] - fifth * total);
+            const int n_equal = (a == b ? 1 : 0) + (b == c ? 1 : 0) + (a == c ? 1 : 0);
+            const double factorials = n_equal == 3 ? 6 : n_equal == 1 ? 2 : 1;
+            matrix[a][b] -= (volume / of_three * factorials) * at_corner;
+          }
+    }
+
+    /// What the bonds of a point have less, by their factors, than if all had that of the point's
+    /// cell: the fluxes of layers on the interfaces.
+    template <class Value>
+    class Deficit
+    {
+    public:
+      Deficit(const JumpRows<Value> &of_face, const SolidKernel &kernel, const BondFactors &factors)
+          : of_face_(of_face), factors_(factors)
+      {
+        for (const PotentialKernel &part : kernel.parts)
+          fluxes_.emplace_back(part);
+      }
+
+      /// ∫ λ_a λ_b times it over a cell, by rules that are refined until the last change is below a
+      /// tolerance, but for its linear part. [reach^6]
+      /// @param corners    of the cell [reaches]
+      /// @param open       the last change, if it is larger at the finest level
+      Matrix<Value> integrals(std::size_t mesh_cell, const std::array<Point<3>, n_corners> &corners,
+                              double tolerance, double &open) const
+      {
+        const std::vector<Layer> layers = layers_about(mesh_cell, corners);
+        Matrix<Value> result{};
+        if (layers.empty())
+          return result;
+        static const std::vector<dealii::Quadrature<3>> rules = []
         {
-          for (const Block &block : row)
+          const dealii::QWitherdenVincentSimplex<3> coarse(3), fine(5);
+          return std::vector<dealii::Quadrature<3>>{coarse, fine, on_eighths(fine),
+                                                    on_eighths(on_eighths(fine))};
+        }();
+        const double volume = determinant_of(corners) / 6;
+        result = integrals(layers, corners, rules[0]);
+        double change = 0;
+        for (std::size_t level = 1; level < rules.size(); ++level)
+        {
+          const Matrix<Value> finer = integrals(layers, corners, rules[level]);
+          Matrix<Value> difference{};
+          std::array<Value, n_corners> sums{};
+          for (unsigned int a = 0; a < n_corners; ++a)
             for (unsigned int b = 0; b < n_corners; ++b)
             {
-              matrix.column.push_back(n_corners * block.cell + b);
-              matrix.value.push_back(factor * block.value[a][b]);
+              difference[a][b] = finer[a][b] - result[a][b];
+              sums[a] += difference[a][b];
             }
-          matrix.start.push_back(matrix.column.size());
+          subtract_linear_part(volume, sums, difference);
+          change = 0;
+          for (const auto &of_corner : difference)
+            for (const Value &value : of_corner)
+              for (unsigned int c = 0; c < n_components<Value>; ++c)
+                change = std::max(change, std::abs(component(value, c, c)));
+          result = finer;
+          if (change <= tolerance)
+            return result;
         }
+        open = change;
+        return result;
+      }
+
+    private:
+      /// A face, and its normal times the difference of factors on its sides.
+      struct Layer
+      {
+        FaceSides face;
+        Tensor<1, 3> weight;
+      };
+
+      std::vector<Layer> layers_about(std::size_t mesh_cell,
+                                      const std::array<Point<3>, n_corners> &corners) const
+      {
+        geometry::Cuboid box{corners[0], corners[0]};
+        for (const Point<3> &corner : corners)
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            box.lower[d] = std::min(box.lower[d], corner[d] - 1);
+            box.upper[d] = std::max(box.upper[d], corner[d] + 1);
+          }
+        std::vector<unsigned int> near;
+        of_face_.search().find(box, near);
+        std::vector<Layer> layers;
+        for (const unsigned int k : near)
+          if (const JumpFace &face = of_face_.faces()[k]; face.is_interface)
+          {
+            Tensor<1, 3> weight;
+            for (const JumpSide &side : face.sides)
+              weight -= side.sign * factors_.between(mesh_cell, side.mesh_cell) * face.normal;
+            layers.push_back({FaceSides(face.face), weight});
+          }
+        return layers;
+      }
+
+      Matrix<Value> integrals(const std::vector<Layer> &layers,
+                              const std::array<Point<3>, n_corners> &corners,
+                              const dealii::Quadrature<3> &rule) const
+      {
+        const double determinant =
+            (corners[1] - corners[0]) *
+            cross_product_3d(corners[2] - corners[0], corners[3] - corners[0]);
+        Matrix<Value> result{};
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const Point<3> &s = rule.point(q);
+          const std::array<double, n_corners> lambda = {1 - s[0] - s[1] - s[2], s[0], s[1], s[2]};
+          Point<3> x;
+          for (unsigned int a = 0; a < n_corners; ++a)
+            x += lambda[a] * corners[a];
+          const Value deficit = at(x, layers);
+          for (unsigned int a = 0; a < n_corners; ++a)
+            for (unsigned int b = 0; b < n_corners; ++b)
+              result[a][b] += (determinant * rule.weight(q) * lambda[a] * lambda[b]) * deficit;
+        }
+        return result;
+      }
+
+      static double determinant_of(const std::array<Point<3>, n_corners> &x)
+      {
+        return (x[1] - x[0]) * cross_product_3d(x[2] - x[0], x[3] - x[0]);
+      }
+
+      Value at(const Point<3> &x, const std::vector<Layer> &layers) const
+      {
+        Value sum{};
+        for (const Layer &layer : layers)
+          for (std::size_t part = 0; part < fluxes_.size(); ++part)
+          {
+            std::array<double, 2> is_part{};
+            is_part[part] = 1;
+            add_product(sum, is_part, fluxes_[part](x, layer.face), layer.weight);
+          }
+        make_symmetric(sum);
+        return sum;
+      }
+
+      /// The rule on the eight parts of a tetrahedron: four at its corners, and the octahedron
+      /// between them along a diagonal.
+      static dealii::Quadrature<3> on_eighths(const dealii::Quadrature<3> &whole)
+      {
+        geometry::TetrahedralMesh mesh;
+        mesh.vertices = {Point<3>(), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
+        mesh.cells = {{0, 1, 2, 3}};
+        mesh.is_inside = {1};
+        mesh = geometry::refine(mesh);
+        std::vector<Point<3>> points;
+        std::vector<double> weights;
+        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+          for (unsigned int q = 0; q < whole.size(); ++q)
+          {
+            const auto &s = whole.point(q);
+            const auto &v = mesh.cells[cell];
+            const Point<3> &first = mesh.vertices[v[0]];
+            points.push_back(first + s[0] * (mesh.vertices[v[1]] - first) +
+                             s[1] * (mesh.vertices[v[2]] - first) +
+                             s[2] * (mesh.vertices[v[3]] - first));
+            weights.push_back(whole.weight(q) * geometry::determinant(mesh, cell));
+          }
+        return {points, weights};
+      }
+
+      const JumpRows<Value> &of_face_;
+      const BondFactors &factors_;
+      std::vector<LayerFlux> fluxes_; ///< of the kernel's parts
+    };
+
+    /// Bonds get their factors. Rows annihilate constants: the linear part of what a cell's bonds
+    /// have less is known from the entries of two cells, and only the rest is by quadrature.
+    template <class Value>
+    void set_factors(const TetrahedralSpace &space, const SolidKernel &kernel,
+                     const JumpRows<Value> &of_face, const BondFactors &factors, double of_jumps,
+                     std::vector<BlockRow<Value>> &rows, FaceRuleUse &use)
+    {
+      const TetrahedralMesh &mesh = space.mesh();
+      std::vector<std::size_t> mesh_cell(mesh.cells.size());
+      for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+        mesh_cell[space.dof(cell, 0) / n_corners] = cell;
+      const Deficit<Value> deficit(of_face, kernel, factors);
+      std::mutex mutex;
+      const auto finish = [&](std::size_t row)
+      {
+        const std::size_t own = mesh_cell[row];
+        std::array<Point<3>, n_corners> corners;
+        for (unsigned int a = 0; a < n_corners; ++a)
+          corners[a] =
+              Point<3>((mesh.vertices[mesh.cells[own][a]] - mesh.vertices.front()) / kernel.reach);
+        double open = 0;
+        const double volume = determinant(mesh, own) / 6 / std::pow(kernel.reach, 3);
+        const Matrix<Value> of_bonds =
+            deficit.integrals(own, corners, of_jumps * kernel.m0 * volume, open);
+        std::array<Value, n_corners> sums{};
+        Block<Value> *diagonal = nullptr;
+        for (Block<Value> &block : rows[row])
+        {
+          const double factor = factors.between(own, mesh_cell[block.cell]);
+          if (block.cell == row)
+            diagonal = &block;
+          for (unsigned int a = 0; a < n_corners; ++a)
+            for (unsigned int b = 0; b < n_corners; ++b)
+            {
+              block.value[a][b] *= factor;
+              if (block.cell == row)
+                block.value[a][b] += of_bonds[a][b];
+              sums[a] += block.value[a][b];
+            }
+        }
+        subtract_linear_part(volume, sums, diagonal->value);
+        if (open > 0)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          ++use.n_open;
+          use.open = std::max(use.open, open);
+        }
+      };
+      dealii::parallel::apply_to_subranges(
+          std::size_t(0), rows.size(),
+          [&](std::size_t begin, std::size_t end)
+          {
+            for (std::size_t row = begin; row < end; ++row)
+              finish(row);
+          },
+          4);
+    }
+
+    template <class Value>
+    algebra::CsrMatrix to_matrix(const std::vector<BlockRow<Value>> &rows, double factor)
+    {
+      constexpr unsigned int n = n_components<Value>;
+      algebra::CsrMatrix matrix;
+      matrix.start.push_back(0);
+      for (const BlockRow<Value> &row : rows)
+        for (unsigned int a = 0; a < n_corners; ++a)
+          for (unsigned int c = 0; c < n; ++c)
+          {
+            for (const Block<Value> &block : row)
+              for (unsigned int b = 0; b < n_corners; ++b)
+                for (unsigned int d = 0; d < n; ++d)
+                {
+                  matrix.column.push_back(n * (n_corners * block.cell + b) + d);
+                  matrix.value.push_back(factor * component(block.value[a][b], c, d));
+                }
+            matrix.start.push_back(matrix.column.size());
+          }
       return matrix;
+    }
+
+    template <class Value>
+    algebra::CsrMatrix assemble(const TetrahedralSpace &space, const SolidKernel &kernel,
+                                std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use,
+                                const BondFactors *factors, bool is_continuous)
+    {
+      const JumpRows<Value> of_face(space, kernel, n_rows, rule, factors, is_continuous);
+      const std::size_t n_needed = n_rows / n_corners, n_faces = of_face.faces().size();
+      std::vector<BlockRow<Value>> rows(of_face.n_cells());
+      std::mutex mutex;
+      FaceRuleUse total;
+      constexpr std::size_t n_at_once = 256; // some 50 MB of rows of faces
+      std::vector<std::array<BlockRow<Value>, 2>> of_faces;
+      for (std::size_t first = 0; first < n_faces; first += n_at_once)
+      {
+        const std::size_t last = std::min(first + n_at_once, n_faces);
+        of_faces.assign(last - first, {});
+        dealii::parallel::apply_to_subranges(
+            first, last,
+            [&](std::size_t begin, std::size_t end)
+            {
+              typename JumpRows<Value>::Workspace work;
+              for (std::size_t face = begin; face < end; ++face)
+                of_faces[face - first] = of_face.rows_of(face, work);
+              const std::lock_guard<std::mutex> lock(mutex);
+              for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
+                total.n_pairs[level] += work.use.n_pairs[level];
+              total.error = std::max(total.error, work.use.error);
+              total.n_open += work.use.n_open;
+              total.open = std::max(total.open, work.use.open);
+            },
+            4);
+        for (std::size_t face = first; face < last; ++face)
+          for (std::size_t side = 0; side < of_face.faces()[face].sides.size(); ++side)
+            if (const BlockRow<Value> &row = of_faces[face - first][side]; !row.empty())
+              add(rows[of_face.faces()[face].sides[side].cell], row);
+      }
+      add_local(space, kernel.reach, of_face, rows, n_needed);
+      make_symmetric(rows, n_needed);
+      if (factors != nullptr)
+        set_factors(space, kernel, of_face, *factors, rule.of_jumps, rows, total);
+      if (use != nullptr)
+      {
+        *use = total;
+        use->error /= least_diagonal(rows);
+        use->open /= least_diagonal(rows);
+      }
+      return to_matrix(rows, kernel.constant * std::pow(kernel.reach, 6)); // of ∬γ
+    }
+
+    algebra::CsrMatrix assemble_broken(const TetrahedralSpace &space, const SolidKernel &kernel,
+                                       std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use,
+                                       const BondFactors *factors, bool is_continuous)
+    {
+      return kernel.parts.size() == 1
+                 ? assemble<double>(space, kernel, n_rows, rule, use, factors, is_continuous)
+                 : assemble<Tensor2>(space, kernel, n_rows, rule, use, factors, is_continuous);
     }
   } // namespace
 
   algebra::CsrMatrix assemble_with_jumps(const TetrahedralSpace &space,
                                          const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                         const FaceRule &rule, FaceRuleUse *use)
+                                         const FaceRule &rule, FaceRuleUse *use,
+                                         const std::optional<physics::Dilatation<3>> &dilatation,
+                                         const BondFactors *factors)
   {
-    const JumpRows of_face(space, kernel, n_rows, rule);
-    const std::size_t n_needed = n_rows / n_corners, n_faces = of_face.faces().size();
-    std::vector<BlockRow> rows(of_face.n_cells());
-    std::mutex mutex;
-    FaceRuleUse total;
-    constexpr std::size_t n_at_once = 256; // some 50 MB of rows of faces
-    std::vector<std::array<BlockRow, 2>> of_faces;
-    for (std::size_t first = 0; first < n_faces; first += n_at_once)
-    {
-      const std::size_t last = std::min(first + n_at_once, n_faces);
-      of_faces.assign(last - first, {});
-      dealii::parallel::apply_to_subranges(
-          first, last,
-          [&](std::size_t begin, std::size_t end)
+    return assemble_broken(space, SolidKernel(kernel, dilatation), n_rows, rule, use, factors,
+                           false);
+  }
+
+  algebra::CsrMatrix assemble_interfaces(const TetrahedralSpace &space,
+                                         const physics::Kernel<3> &kernel, std::size_t n_rows,
+                                         const FaceRule &rule, FaceRuleUse *use,
+                                         const BondFactors &factors)
+  {
+    return assemble_broken(space, SolidKernel(kernel), n_rows, rule, use, &factors, true);
+  }
+
+  algebra::CsrMatrix joined(const TetrahedralSpace &continuous, const TetrahedralSpace &broken,
+                            unsigned int n_components, const algebra::CsrMatrix &rows)
+  {
+    const TetrahedralMesh &mesh = broken.mesh();
+    std::vector<unsigned int> joint(broken.n_dofs()); // of unknowns of the broken space
+    std::vector<std::vector<unsigned int>> parts(continuous.n_free());
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      for (unsigned int corner = 0; corner < n_corners; ++corner)
+      {
+        const unsigned int dof = broken.dof(cell, corner);
+        joint[dof] = continuous.dof(cell, corner);
+        if (joint[dof] < parts.size())
+          parts[joint[dof]].push_back(dof);
+      }
+    std::vector<double> sums(continuous.n_dofs() * n_components);
+    std::vector<char> is_there(sums.size());
+    algebra::CsrMatrix result;
+    result.start.push_back(0);
+    for (const std::vector<unsigned int> &of_row : parts)
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        std::vector<unsigned int> columns;
+        for (const unsigned int part : of_row)
+          for (std::size_t k = rows.start[part * n_components + c];
+               k < rows.start[part * n_components + c + 1]; ++k)
           {
-            JumpRows::Workspace work;
-            for (std::size_t face = begin; face < end; ++face)
-              of_faces[face - first] = of_face.rows_of(face, work);
-            const std::lock_guard<std::mutex> lock(mutex);
-            for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
-              total.n_pairs[level] += work.use.n_pairs[level];
-            total.error = std::max(total.error, work.use.error);
-            total.n_open += work.use.n_open;
-            total.open = std::max(total.open, work.use.open);
-          },
-          4);
-      for (std::size_t face = first; face < last; ++face)
-        for (std::size_t side = 0; side < of_face.faces()[face].sides.size(); ++side)
-          if (const BlockRow &row = of_faces[face - first][side]; !row.empty())
-            add(rows[of_face.faces()[face].sides[side].cell], row);
-    }
-    add_local(space, kernel.horizon(), of_face, rows, n_needed);
-    make_symmetric(rows, n_needed);
-    if (use != nullptr)
-    {
-      *use = total;
-      use->error /= least_diagonal(rows);
-      use->open /= least_diagonal(rows);
-    }
-    return to_matrix(rows, kernel.constant() * std::pow(kernel.horizon(), 6)); // of ∬γ
+            const unsigned int column =
+                joint[rows.column[k] / n_components] * n_components + rows.column[k] % n_components;
+            if (is_there[column] == 0)
+              columns.push_back(column);
+            is_there[column] = 1;
+            sums[column] += rows.value[k];
+          }
+        std::sort(columns.begin(), columns.end());
+        for (const unsigned int column : columns)
+        {
+          result.column.push_back(column);
+          result.value.push_back(sums[column]);
+          sums[column] = 0;
+          is_there[column] = 0;
+        }
+        result.start.push_back(result.column.size());
+      }
+    return result;
   }
 } // namespace plumbline::reference

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/tetrahedra/assembly.h"
+#include "reference/tetrahedra/bond_factors.h"
 
 namespace plumbline::reference
 {
@@ -19,8 +20,34 @@ namespace plumbline::reference
   /// round-off; the others, which JumpPairs gives, are multiplied by jumps of values, so that rows
   /// annihilate linear fields, and are those of continuous functions where sums of shape functions
   /// are continuous, whatever the quadrature.
+  ///
+  /// Bond tensors and dilatations: in place of ∬ Λ ∇φ_i·∇φ_j the same sums of q I and of w with the
+  /// components of both gradients, see SolidKernel; made symmetric in the components.
+  ///
+  /// Factors a of bonds, constant in each pair of cells, are those of the entries of two cells T
+  /// and T', as shape functions are those of cells. With the bonds of a point in T,
+  ///   ½∬aγ (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) = a_TT ½∬γ (…) (…)
+  ///     + ∫_T φ_i φ_j (∫aγ dy - a_TT m₀) for φ_i, φ_j of one cell,
+  /// of which the last factor is a sum over the interfaces of groups and the free surface, see
+  /// LayerFlux, and the integral is by quadrature to the tolerance of jumps. The diagonal then
+  /// makes rows annihilate constants.
   /// @pre  a space of such functions; n_rows is a multiple of 4
-  algebra::CsrMatrix assemble_with_jumps(const TetrahedralSpace &space,
+  algebra::CsrMatrix
+  assemble_with_jumps(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
+                      std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use,
+                      const std::optional<physics::Dilatation<3>> &dilatation = {},
+                      const BondFactors *factors = nullptr);
+
+  /// The same for functions that are continuous, but for the faces where factors differ: only there
+  /// values jump. Entries of single cells mean nothing, see joined().
+  /// @param space  of discontinuous linear functions
+  algebra::CsrMatrix assemble_interfaces(const TetrahedralSpace &space,
                                          const physics::Kernel<3> &kernel, std::size_t n_rows,
-                                         const FaceRule &rule, FaceRuleUse *use);
+                                         const FaceRule &rule, FaceRuleUse *use,
+                                         const BondFactors &factors);
+
+  /// Rows of continuous functions: sums over the cells about a vertex. Symmetric to round-off.
+  /// @param rows  of the free unknowns of the broken space
+  algebra::CsrMatrix joined(const TetrahedralSpace &continuous, const TetrahedralSpace &broken,
+                            unsigned int n_components, const algebra::CsrMatrix &rows);
 } // namespace plumbline::reference

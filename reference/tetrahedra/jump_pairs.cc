@@ -1,5 +1,7 @@
 #include "reference/tetrahedra/jump_pairs.h"
 
+#include "reference/tetrahedra/face_sides.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -33,115 +35,11 @@ namespace plumbline::reference
       std::array<unsigned int, 3> of = {0, 1, 2};
       unsigned int n_shared = 0;
     };
-
-    /// Gauss rules on [0, 1] by their numbers of points.
-    struct GaussRule
-    {
-      std::vector<double> points, weights;
-    };
-
-    constexpr unsigned int most_gauss_points = 200; // see LinePoints
-
-    const GaussRule &gauss(unsigned int n)
-    {
-      static const std::vector<GaussRule> rules = []
-      {
-        std::vector<GaussRule> result(most_gauss_points);
-        for (unsigned int k = 1; k <= most_gauss_points; ++k)
-        {
-          const dealii::QGauss<1> rule(k);
-          for (unsigned int q = 0; q < k; ++q)
-            result[k - 1].points.push_back(rule.point(q)[0]);
-          result[k - 1].weights = rule.get_weights();
-        }
-        return result;
-      }();
-      return rules[n - 1];
-    }
-
-    /// Points along a side for functions of τ and of r = √(square + τ²).
-    struct LinePoints
-    {
-      static constexpr unsigned int most = most_gauss_points;
-
-      /// @param extra  points that the functions take besides
-      LinePoints(double from, double to, double square, unsigned int extra)
-      {
-        // r is singular at τ = ± iη; far from there by τ, else by τ = η sinh s, of which it is
-        // analytic where |Im s| < π/2: at most 195 points for |τ| < 1
-        constexpr double least_axis = 1.25, least_eta = 1e-14;
-        const double axis =
-            (std::sqrt(from * from + square) + std::sqrt(to * to + square)) / (to - from);
-        if (axis > least_axis)
-        {
-          const GaussRule &rule = choose(axis + std::sqrt(axis * axis - 1), extra);
-          for (unsigned int q = 0; q < n; ++q)
-          {
-            tau[q] = from + (to - from) * rule.points[q];
-            weight[q] = (to - from) * rule.weights[q];
-          }
-        }
-        else
-        {
-          const double eta = std::max(std::sqrt(square), least_eta), first = std::asinh(from / eta),
-                       size = std::asinh(to / eta) - first, width = M_PI / size;
-          const GaussRule &rule = choose(width + std::sqrt(1 + width * width), extra);
-          for (unsigned int q = 0; q < n; ++q)
-          {
-            tau[q] = eta * std::sinh(first + size * rule.points[q]);
-            weight[q] = size * rule.weights[q] * std::sqrt(eta * eta + tau[q] * tau[q]);
-          }
-        }
-        for (unsigned int q = 0; q < n; ++q)
-          r[q] = std::sqrt(square + tau[q] * tau[q]);
-      }
-
-      unsigned int n = 0;
-      std::array<double, most> tau, weight, r; // filled up to n
-
-    private:
-      /// For 1e-8 of functions that are analytic in the ellipse about [-1, 1] whose semi-axes have
-      /// this sum: Trefethen 2013, Approximation Theory and Approximation Practice, th. 19.3.
-      const GaussRule &choose(double ellipse, unsigned int extra)
-      {
-        constexpr double half_of_digits = 9.2;
-        n = 2 + extra + static_cast<unsigned int>(half_of_digits / std::log(ellipse));
-        if (!(n <= most)) // not for sides within the horizon
-          n = most;
-        return gauss(n);
-      }
-    };
   } // namespace
 
-  /// A face that integrals at points are over.
-  class JumpPairs::Triangle
+  JumpPairs::JumpPairs(const PotentialKernel &kernel, double tolerance) : tolerance_(tolerance)
   {
-  public:
-    explicit Triangle(const PairFace &face) : x(face.vertices())
-    {
-      const Tensor<1, 3> area = cross_product_3d(x[1] - x[0], x[2] - x[0]);
-      normal = area / area.norm();
-      for (unsigned int k = 0; k < 3; ++k)
-      {
-        const Tensor<1, 3> edge = x[(k + 1) % 3] - x[k];
-        length[k] = edge.norm();
-        along[k] = edge / length[k];
-        outward[k] = cross_product_3d(along[k], normal);
-      }
-      for (unsigned int k = 0; k < 3; ++k)
-        slope[k] = -outward[(k + 1) % 3] * (length[(k + 1) % 3] / area.norm());
-    }
-
-    PairFace::Vertices x;
-    Tensor<1, 3> normal;
-    std::array<double, 3> length{};
-    std::array<Tensor<1, 3>, 3> along, outward; ///< of sides k -> k + 1
-    std::array<Tensor<1, 3>, 3> slope;          ///< ∇λ
-  };
-
-  JumpPairs::JumpPairs(const physics::Kernel<3> &kernel, double tolerance) : tolerance_(tolerance)
-  {
-    for (const PotentialTerms &terms : FacePotential::terms(kernel))
+    for (const PotentialTerms &terms : kernel.terms)
       parts_.push_back({{terms, 2}, {terms, 3}});
     for (const unsigned int n : {3, 5, 7})
       rules_[0].push_back(make_rule(n));
@@ -177,7 +75,7 @@ namespace plumbline::reference
                                                      const PairFace &inner) const
   {
     const Order order(outer, inner);
-    const Triangle face(inner);
+    const FaceSides face(inner);
     const std::vector<Rule> &rules = rules_[order.n_shared];
     FaceIntegrals integrals = integrate_over(outer, face, order.of, rules.front());
     for (std::size_t level = 1; level < rules.size(); ++level)
@@ -206,7 +104,7 @@ namespace plumbline::reference
     return integrals;
   }
 
-  JumpPairs::FaceIntegrals JumpPairs::integrate_over(const PairFace &outer, const Triangle &inner,
+  JumpPairs::FaceIntegrals JumpPairs::integrate_over(const PairFace &outer, const FaceSides &inner,
                                                      const std::array<unsigned int, 3> &order,
                                                      const Rule &rule) const
   {
@@ -233,7 +131,7 @@ namespace plumbline::reference
   }
 
   JumpPairs::PointIntegrals JumpPairs::integrals_at(const Point<3> &point,
-                                                    const Triangle &face) const
+                                                    const FaceSides &face) const
   {
     constexpr double flat = 1e-13; // a height that is none
     PointIntegrals integrals;
@@ -377,7 +275,7 @@ namespace plumbline::reference
                              {third, third, third}});
     // a along rays from the vertex, where functions are like a and a log a, and b from the side
     // on, where they are like b log b
-    const GaussRule &line = gauss(n_points);
+    const LineRule &line = line_rule(n_points);
     Rule rule;
     for (const auto &[apex, near, far] : triangles)
       for (unsigned int i = 0; i < n_points; ++i)

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "reference/tetrahedra/face_pairs.h"
+#include "reference/tetrahedra/face_potential.h"
 
 #include <array>
 #include <vector>
 
 namespace plumbline::reference
 {
+  class FaceSides;
+
   /// Integrals over a pair of faces F and G for functions that jump across both, linearly along
   /// each. λ_a are the linear functions of a face's vertices, n its normal, about which its
   /// vertices are counter-clockwise, and h a height over its plane along n.
@@ -34,10 +37,9 @@ namespace plumbline::reference
   class JumpPairs
   {
   public:
-    /// @param kernel  one that FacePotential takes
     /// @param tolerance  of Λ's integrals, and of the others divided by the face's size: rules are
     /// refined until the last change is below it, or the finest is used: see JumpIntegrals::open
-    JumpPairs(const physics::Kernel<3> &kernel, double tolerance);
+    JumpPairs(const PotentialKernel &kernel, double tolerance);
 
     /// Those of (G, F) are the transpose, equal to the last bit. Thread safe.
     JumpIntegrals operator()(const PairFace &f, const PairFace &g) const;
@@ -65,7 +67,6 @@ namespace plumbline::reference
     {
       double kappa = 0, from = 0, to = 0; ///< τ at its ends
     };
-    class Triangle;
     /// Integrals over a face, for a fixed point.
     struct PointIntegrals
     {
@@ -83,9 +84,9 @@ namespace plumbline::reference
 
     /// Quadrature over the outer face of integrals along the sides of the inner one.
     FaceIntegrals integrate_over(const PairFace &outer, const PairFace &inner) const;
-    FaceIntegrals integrate_over(const PairFace &outer, const Triangle &inner,
+    FaceIntegrals integrate_over(const PairFace &outer, const FaceSides &inner,
                                  const std::array<unsigned int, 3> &order, const Rule &rule) const;
-    PointIntegrals integrals_at(const dealii::Point<3> &point, const Triangle &face) const;
+    PointIntegrals integrals_at(const dealii::Point<3> &point, const FaceSides &face) const;
     void add_side(const Part &part, const Side &side, double distance, const Values &foot,
                   Values &whole, double &moment) const;
     static void values(const Part &part, const double *r, double *harmonic, double *biharmonic,

@@ -35,26 +35,33 @@ namespace plumbline::tests
     return {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
   }
 
+  /// With the mesh's groups, if it has any.
   inline std::string msh_22(const geometry::TetrahedralMesh &mesh)
   {
-    std::ostringstream nodes, elements;
+    std::ostringstream nodes, elements, names;
+    names << mesh.groups.size() << '\n';
+    for (std::size_t k = 0; k < mesh.groups.size(); ++k)
+      names << "3 " << k + 1 << " \"" << mesh.groups[k] << "\"\n";
     nodes.precision(17);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       nodes << v + 1 << ' ' << mesh.vertices[v] << '\n';
-    const auto add = [&](std::size_t number, int type, bool is_inside, const auto &vertices)
+    const std::size_t n_parts = mesh.hexahedra.empty() ? 1 : geometry::n_in_hexahedron;
+    const auto add = [&](std::size_t number, int type, const auto &vertices)
     {
-      const int group = is_inside ? 1 : 2;
+      const std::size_t cell = n_parts * number;
+      const unsigned int group = !mesh.group.empty()         ? mesh.group[cell] + 1
+                                 : mesh.is_inside[cell] != 0 ? 1
+                                                             : 2;
       elements << number + 1 << ' ' << type << " 2 " << group << ' ' << group;
       for (const unsigned int vertex : vertices)
         elements << ' ' << vertex + 1;
       elements << '\n';
     };
     for (std::size_t c = 0; c < mesh.cells.size() && mesh.hexahedra.empty(); ++c)
-      add(c, 4, mesh.is_inside[c] != 0, mesh.cells[c]);
+      add(c, 4, mesh.cells[c]);
     for (std::size_t c = 0; c < mesh.hexahedra.size(); ++c)
-      add(c, 5, mesh.is_inside[geometry::n_in_hexahedron * c] != 0,
-          in_order_of_gmsh(mesh.hexahedra[c]));
-    return msh_22(volume_names, nodes.str(), elements.str());
+      add(c, 5, in_order_of_gmsh(mesh.hexahedra[c]));
+    return msh_22(mesh.groups.empty() ? volume_names : names.str(), nodes.str(), elements.str());
   }
 
   /// In format 4.1: volumes 1 and 2 are Ω and the layer around it.

@@ -40,6 +40,10 @@ namespace plumbline::scene
         return of_meshes() | Capabilities{C::lattice, C::heterogeneous, C::nonlocal, C::dynamic,
                                           C::cracks,  C::line,          C::space};
       }
+      Capabilities can_in_space() const override
+      {
+        return can() | Capabilities{Capability::free_boundary};
+      }
 
       std::map<std::string, Settings> templates() const override
       {

@@ -25,6 +25,7 @@ namespace plumbline::scene
     virtual std::string name() const = 0;
     virtual std::string help() const = 0; ///< description that follows its name
     virtual Capabilities can() const = 0;
+    virtual Capabilities can_in_space() const { return can(); } ///< with Domain/dimension = 3
 
     /// Capabilities that scenes of this model need.
     virtual Capabilities needs(const Scene &) const { return {}; }
@@ -104,5 +105,5 @@ namespace plumbline::scene
   const std::vector<const Model *> &models();
 
   /// For capability_table.
-  std::vector<Capable> capable_models();
+  std::vector<Capable> capable_models(bool is_in_space = false);
 } // namespace plumbline::scene

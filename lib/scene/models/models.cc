@@ -18,11 +18,11 @@ namespace plumbline::scene
                      bond_based().name());
   }
 
-  std::vector<Capable> capable_models()
+  std::vector<Capable> capable_models(bool is_in_space)
   {
     std::vector<Capable> rows;
     for (const Model *const model : models())
-      rows.push_back({model->name(), model->can()});
+      rows.push_back({model->name(), is_in_space ? model->can_in_space() : model->can()});
     return rows;
   }
 } // namespace plumbline::scene

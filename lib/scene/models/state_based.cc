@@ -181,6 +181,7 @@ namespace plumbline::scene
       {
         return StateBased::can() | Capabilities{Capability::free_boundary, Capability::floating};
       }
+      Capabilities can_in_space() const override { return StateBased::can(); }
 
       std::map<std::string, Settings> templates() const override
       {

@@ -56,7 +56,8 @@ namespace plumbline::scene
           for (const NamedExpression &one : to_named_expressions(text))
             materials.push_back({one.name, to_number(one.expression)});
         },
-        "The coefficient a by physical surface of a gmsh file: 'omega_steel: 5; omega_resin: 1; "
+        "The coefficient a by physical surface (in three dimensions volume) of a gmsh file: "
+        "'omega_steel: 5; omega_resin: 1; "
         "collar: 1', a positive number for each.");
     keys.add("symmetrisation", symmetrisation,
              "Mean of the coefficients at the two ends of a bond.");

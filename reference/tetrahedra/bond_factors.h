@@ -1,0 +1,45 @@
+#pragma once
+
+#include "algebra/csr_matrix.h"
+#include "problem/in_space.h"
+#include "reference/tetrahedra/space.h"
+
+namespace plumbline::reference
+{
+  /// Factors of the bonds between cells of a mesh, by their groups. Those to the outside of the
+  /// mesh have the factor 0 where the surface is free.
+  class BondFactors
+  {
+  public:
+    /// @param mesh  of the problem, its cells in any order; must outlive the factors
+    BondFactors(const problem::Problem<3> &problem, const TetrahedralMesh &mesh)
+        : factors_(problem.factors), is_free_(problem.is_free), group_(mesh.group)
+    {
+    }
+
+    bool are_all_one() const { return !factors_ && !is_free_; }
+    bool is_surface_free() const { return is_free_; }
+    double between(std::size_t cell, std::size_t other) const
+    {
+      return factors_ ? factors_->between(group_[cell], group_[other]) : 1;
+    }
+    bool are_alike(std::size_t cell, std::size_t other) const
+    {
+      return !factors_ || group_[cell] == group_[other];
+    }
+
+  private:
+    std::optional<problem::GroupFactors> factors_;
+    bool is_free_;
+    const std::vector<unsigned int> &group_;
+  };
+
+  /// From the entries of a homogeneous material in all of space to those of bonds with factors. For
+  /// constants on cells the entry of two cells is an integral over the bonds between them, which
+  /// has one factor; the diagonal is what makes rows annihilate constants, so that bonds to the
+  /// outside of the mesh are left out. As exact as the rows are, and symmetric to the last bit if
+  /// they are.
+  /// @param rows  of free cells by all cells, with n_components for each
+  void set_factors_of_cells(const BondFactors &factors, const TetrahedralSpace &space,
+                            unsigned int n_components, algebra::CsrMatrix &rows);
+} // namespace plumbline::reference
