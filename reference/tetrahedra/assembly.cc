@@ -1,10 +1,7 @@
 #include "reference/tetrahedra/assembly.h"
 
-#include "geometry/search.h"
-#include "reference/tetrahedra/exact_pairs.h"
+#include "reference/tetrahedra/face_sweep.h"
 #include "reference/tetrahedra/jump_assembly.h"
-#include "reference/tetrahedra/lattice_faces.h"
-#include "reference/tetrahedra/solid_kernel.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -12,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -78,212 +74,6 @@ namespace plumbline::reference
       row = std::move(sum);
     }
 
-    /// The faces of a mesh, those that are near to each other together.
-    class SortedFaces
-    {
-    public:
-      SortedFaces(const TetrahedralSpace &space, double horizon) : faces_(make_faces(space))
-      {
-        const TetrahedralMesh &mesh = space.mesh();
-        double volume = 0;
-        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-          volume += determinant(mesh, cell) / 6 / std::pow(horizon, 3);
-        of_vertex_ = volume / static_cast<double>(mesh.vertices.size());
-        of_cell_ = volume / static_cast<double>(mesh.cells.size());
-        sort(mesh, horizon);
-        std::map<std::array<unsigned int, 2>, unsigned int> edges;
-        for (const SpaceFace &face : faces_)
-        {
-          NumberedFace numbered;
-          numbered.number = static_cast<unsigned int>(numbered_.size());
-          for (unsigned int k = 0; k < 3; ++k)
-          {
-            std::array<unsigned int, 2> ends = {face.vertices[k], face.vertices[(k + 1) % 3]};
-            std::sort(ends.begin(), ends.end());
-            numbered.edges[k] =
-                edges.try_emplace(ends, static_cast<unsigned int>(edges.size())).first->second;
-          }
-          numbered_.push_back(numbered);
-        }
-        for (const SpaceFace &face : faces_)
-          scaled_.emplace_back(scale(mesh, horizon, face), face.vertices);
-        for (NumberedFace &face : numbered_)
-          face.face = &scaled_[face.number];
-      }
-
-      const std::vector<SpaceFace> &faces() const { return faces_; }
-      const NumberedFace &numbered(std::size_t face) const { return numbered_[face]; }
-      /// First faces of blocks, and the end.
-      const std::vector<std::size_t> &blocks() const { return blocks_; }
-      double volume_of_vertex() const { return of_vertex_; } ///< the mean [horizons]
-      double volume_of_cell() const { return of_cell_; }     ///< the mean [horizons]
-
-      std::vector<geometry::Cuboid> boxes() const
-      {
-        std::vector<geometry::Cuboid> boxes;
-        for (const PairFace &face : scaled_)
-          boxes.push_back(face.box());
-        return boxes;
-      }
-
-    private:
-      static PairFace::Vertices scale(const TetrahedralMesh &mesh, double horizon,
-                                      const SpaceFace &face)
-      {
-        PairFace::Vertices x;
-        for (unsigned int k = 0; k < 3; ++k)
-          x[k] = Point<3>((mesh.vertices[face.vertices[k]] - mesh.vertices.front()) / horizon);
-        return x;
-      }
-
-      /// By cubes a vertex or two wide, which are the blocks.
-      void sort(const TetrahedralMesh &mesh, double horizon)
-      {
-        // values that pairs share fit into some 30 MB
-        const double spacing = std::cbrt(of_vertex_), size = spacing * (spacing > .25   ? 3
-                                                                        : spacing > .15 ? 2
-                                                                                        : 1);
-        using Key = std::array<long, 3>;
-        std::vector<std::pair<Key, std::size_t>> keys;
-        for (const SpaceFace &face : faces_)
-        {
-          const PairFace::Vertices x = scale(mesh, horizon, face);
-          Key key{};
-          for (unsigned int d = 0; d < 3; ++d)
-            key[d] = std::lround(std::floor((x[0][2 - d] + x[1][2 - d] + x[2][2 - d]) / 3 / size));
-          keys.emplace_back(key, keys.size());
-        }
-        std::sort(keys.begin(), keys.end());
-        std::vector<SpaceFace> sorted;
-        for (std::size_t k = 0; k < keys.size(); ++k)
-        {
-          if (k == 0 || keys[k].first != keys[k - 1].first)
-            blocks_.push_back(k);
-          sorted.push_back(faces_[keys[k].second]);
-        }
-        blocks_.push_back(keys.size());
-        faces_ = std::move(sorted);
-      }
-
-      std::vector<SpaceFace> faces_;
-      double of_vertex_ = 0, of_cell_ = 0;
-      std::vector<std::size_t> blocks_;
-      std::vector<PairFace> scaled_; ///< the faces [horizons]
-      std::vector<NumberedFace> numbered_;
-    };
-
-    /// ∬_{F×G} of one potential, of a face F and those near it.
-    class FaceIntegrals
-    {
-    public:
-      /// @param kernel  a part of a SolidKernel
-      /// @param largest_jump  of each face
-      /// @param size_of_pair  by which round-off is measured [1]
-      /// @param spacing  of a lattice, or 0 [reaches]
-      FaceIntegrals(const PotentialKernel &kernel, FacePotential::Kind kind,
-                    const SortedFaces &faces, const std::vector<double> &largest_jump,
-                    const FaceRule &rule, double spacing, double size_of_pair)
-          : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind), spacing_(spacing)
-      {
-        if (rule.is_exact)
-          exact_.emplace(kernel, kind, rule.tolerance * size_of_pair);
-        else
-          by_rule_.emplace(potential_, rule.refinement);
-      }
-
-      double diffusion() const { return potential_.diffusion(); }
-
-      /// What a thread needs for itself.
-      struct Workspace
-      {
-        std::vector<double> values; ///< of a face and those near it
-        ExactPairs::Shared shared;
-        std::vector<const NumberedFace *> others; ///< of them, those that are not known
-        std::vector<std::size_t> places;          ///< of those there
-        std::vector<ExactPairs::Integral> exact;  ///< their integrals
-        FaceRuleUse use;
-      };
-
-      /// For pairs of some faces, the first of each pair, with others.
-      void start(const std::vector<const NumberedFace *> &first,
-                 const std::vector<const NumberedFace *> &second, Workspace &work) const
-      {
-        if (exact_)
-          work.shared.start(first, second);
-      }
-
-      /// work.values = those of a face and those near it.
-      void find(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
-      {
-        const NumberedFace &f = faces_.numbered(face);
-        work.values.assign(near.size(), 0);
-        if (!exact_)
-          for (std::size_t k = 0; k < near.size(); ++k)
-            work.values[k] = (*by_rule_)(*f.face, *faces_.numbered(near[k]).face);
-        work.others.clear();
-        work.places.clear();
-        for (std::size_t k = 0; exact_ && k < near.size(); ++k)
-          if (const NumberedFace &g = faces_.numbered(near[k]);
-              spacing_ == 0 || !find_repeated(f, g, work, work.values[k]))
-          {
-            work.others.push_back(&g);
-            work.places.push_back(k);
-          }
-        if (work.others.empty())
-          return;
-        (*exact_)(f, work.others, work.shared, work.exact);
-        for (std::size_t k = 0; k < work.others.size(); ++k)
-        {
-          ++work.use.n_pairs[work.exact[k].level];
-          work.values[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
-        }
-      }
-
-    private:
-      double noted(const NumberedFace &f, const NumberedFace &g,
-                   const ExactPairs::Integral &integral, Workspace &work) const
-      {
-        work.use.error = std::max(work.use.error, integral.error * largest_jump_[f.number] *
-                                                      largest_jump_[g.number]);
-        return integral.value;
-      }
-
-      /// @return  whether both are faces of a lattice
-      bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
-                         double &value) const
-      {
-        const auto places = places_on_lattice(*f.face, *g.face, spacing_);
-        if (places)
-          value = noted(f, g, known(*places, work), work);
-        return places.has_value();
-      }
-
-      /// By the places alone, so that all threads have the same.
-      ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
-      {
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          if (const auto found = known_.find(places); found != known_.end())
-            return found->second;
-        }
-        const auto [f, g] = faces_at(places, spacing_);
-        const ExactPairs::Integral integral = (*exact_)(f, g);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (known_.try_emplace(places, integral).second)
-          ++work.use.n_pairs[integral.level];
-        return integral;
-      }
-
-      const SortedFaces &faces_;
-      const std::vector<double> &largest_jump_;
-      FacePotential potential_;
-      double spacing_; ///< [reaches]
-      std::optional<FacePairs> by_rule_;
-      std::optional<ExactPairs> exact_;
-      mutable std::map<FacePlaces, ExactPairs::Integral> known_;
-      mutable std::mutex mutex_; ///< of what is known
-    };
-
     /// What a pair of faces adds to an entry, besides their jumps.
     /// @param parts  the integral of each part of a SolidKernel
     void add_pair(double &sum, double jump, bool is_continuous, const SpaceFace &f,
@@ -314,109 +104,62 @@ namespace plumbline::reference
     public:
       FaceRows(const TetrahedralSpace &space, const SolidKernel &kernel, std::size_t n_rows,
                const FaceRule &rule)
-          : space_(space), n_rows_(n_rows), faces_(space, kernel.reach), search_(faces_.boxes())
+          : space_(space), n_rows_(n_rows), faces_(make_faces(space)),
+            sorted_(space.mesh(), vertices_of(faces_), kernel.reach)
       {
-        for (const SpaceFace &face : faces_.faces())
+        std::vector<SpaceFace> sorted;
+        std::vector<double> largest_jump;
+        std::vector<char> is_needed;
+        for (const std::size_t number : sorted_.order())
         {
-          largest_jump_.push_back(0);
+          const SpaceFace &face = sorted.emplace_back(faces_[number]);
+          largest_jump.push_back(0);
           for (const SpaceFace::Jump &jump : face.jumps)
-            largest_jump_.back() = std::max(largest_jump_.back(), std::abs(jump.value));
-          is_needed_.push_back(std::any_of(face.jumps.begin(), face.jumps.end(),
-                                           [n_rows](const SpaceFace::Jump &jump)
-                                           { return jump.dof < n_rows; })
-                                   ? 1
-                                   : 0);
+            largest_jump.back() = std::max(largest_jump.back(), std::abs(jump.value));
+          is_needed.push_back(std::any_of(face.jumps.begin(), face.jumps.end(),
+                                          [n_rows](const SpaceFace::Jump &jump)
+                                          { return jump.dof < n_rows; })
+                                  ? 1
+                                  : 0);
         }
-        const FacePotential::Kind kind =
-            space.is_continuous() ? FacePotential::Kind::biharmonic : FacePotential::Kind::harmonic;
-        for (const PotentialKernel &part : kernel.parts)
-          integrals_.push_back(std::make_unique<const FaceIntegrals>(
-              part, kind, faces_, largest_jump_, rule, rule.spacing / kernel.reach,
-              kernel.m0 * volume_of_pair()));
+        faces_ = std::move(sorted);
+        const bool is_continuous = space.is_continuous();
+        sweep_.emplace(
+            sorted_, kernel,
+            is_continuous ? FacePotential::Kind::biharmonic : FacePotential::Kind::harmonic, rule,
+            is_continuous ? std::pow(sorted_.volume_of_vertex(), 5. / 3) : sorted_.volume_of_cell(),
+            std::move(largest_jump), std::move(is_needed));
       }
 
-      const std::vector<SpaceFace> &faces() const { return faces_.faces(); }
-      const std::vector<std::size_t> &blocks() const { return faces_.blocks(); }
-      std::size_t n_parts() const { return integrals_.size(); }
-      double diffusion(std::size_t part) const { return integrals_[part]->diffusion(); }
+      const std::vector<SpaceFace> &faces() const { return faces_; }
+      const std::vector<std::size_t> &blocks() const { return sorted_.blocks(); }
+      std::array<double, 2> diffusion() const { return sweep_->diffusion(); }
 
       /// What a thread needs for itself.
       struct Workspace
       {
-        std::vector<unsigned int> near, columns;
+        std::vector<unsigned int> columns;
         std::vector<Value> sums;     ///< of all unknowns, 0 between calls
         std::vector<char> is_summed; ///< of all unknowns, 0 between calls
-        std::array<FaceIntegrals::Workspace, 2> of_parts;
+        FaceSweep::Workspace of_pairs;
       };
 
       /// rows = sums of the faces of a block.
       /// @param rows  as many as the block has faces
       void add_block(std::size_t block, Row<Value> *rows, Workspace &work) const
       {
-        const std::size_t first = blocks()[block], last = blocks()[block + 1];
-        std::vector<std::vector<unsigned int>> near(last - first);
-        std::vector<const NumberedFace *> own, all;
-        find_candidates(first, last, work);
-        std::vector<char> is_met(work.near.size());
-        for (std::size_t face = first; face < last; ++face)
-        {
-          std::vector<unsigned int> &partners = near[face - first];
-          for (std::size_t k = 0; k < work.near.size(); ++k)
-            if (are_partners(face, work.near[k]))
-            {
-              partners.push_back(work.near[k]);
-              if (is_met[k] == 0)
-                all.push_back(&faces_.numbered(work.near[k]));
-              is_met[k] = 1;
-            }
-          if (!partners.empty())
-            own.push_back(&faces_.numbered(face));
-        }
-        for (std::size_t part = 0; part < integrals_.size(); ++part)
-          integrals_[part]->start(own, all, work.of_parts[part]);
-        for (std::size_t face = first; face < last; ++face)
-          rows[face - first] = make_row(face, near[face - first], work);
+        sweep_->for_each_face(block, work.of_pairs,
+                              [&](std::size_t face, const std::vector<unsigned int> &near)
+                              { rows[face - blocks()[block]] = make_row(face, near, work); });
       }
 
     private:
-      /// What m₀ is multiplied by in a diagonal entry, divided by jumps. [reach^3]
-      double volume_of_pair() const
+      static std::vector<SortedFaces::Vertices> vertices_of(const std::vector<SpaceFace> &faces)
       {
-        return space_.is_continuous() ? std::pow(faces_.volume_of_vertex(), 5. / 3)
-                                      : faces_.volume_of_cell();
-      }
-
-      /// Faces that may be partners of one of a block.
-      void find_candidates(std::size_t first, std::size_t last, Workspace &work) const
-      {
-        geometry::Cuboid box = search_.box(static_cast<unsigned int>(first));
-        for (std::size_t face = first; face < last; ++face)
-        {
-          const geometry::Cuboid &own = search_.box(static_cast<unsigned int>(face));
-          for (unsigned int d = 0; d < 3; ++d)
-          {
-            box.lower[d] = std::min(box.lower[d], own.lower[d]);
-            box.upper[d] = std::max(box.upper[d], own.upper[d]);
-          }
-        }
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          box.lower[d] -= 1;
-          box.upper[d] += 1;
-        }
-        search_.find(box, work.near);
-        work.near.erase(work.near.begin(),
-                        std::lower_bound(work.near.begin(), work.near.end(), first));
-      }
-
-      /// Each pair once, so near that f may not vanish, and with a row that is asked for.
-      bool are_partners(std::size_t face, std::size_t other) const
-      {
-        if (other < face || (is_needed_[face] == 0 && is_needed_[other] == 0))
-          return false;
-        const PairFace &f = *faces_.numbered(face).face, &g = *faces_.numbered(other).face;
-        const double reach = 1 + f.radius() + g.radius();
-        return f.centre().distance_square(g.centre()) < reach * reach;
+        std::vector<SortedFaces::Vertices> vertices;
+        for (const SpaceFace &face : faces)
+          vertices.push_back(face.vertices);
+        return vertices;
       }
 
       /// Of unknowns j, what add_pair() says of F and each G times j's jump there.
@@ -426,17 +169,15 @@ namespace plumbline::reference
         work.sums.resize(space_.n_dofs());
         work.is_summed.resize(space_.n_dofs());
         work.columns.clear();
-        for (std::size_t part = 0; part < integrals_.size(); ++part)
-          integrals_[part]->find(face, near, work.of_parts[part]);
         for (std::size_t k = 0; k < near.size(); ++k)
         {
           const unsigned int other = near[k];
-          std::array<double, 2> values{};
-          for (std::size_t part = 0; part < integrals_.size(); ++part)
-            values[part] = work.of_parts[part].values[k] * (other == face ? .5 : 1);
+          std::array<double, 2> values = work.of_pairs.values(k);
+          for (double &value : values)
+            value *= other == face ? .5 : 1;
           if (values[0] == 0 && values[1] == 0)
             continue;
-          const SpaceFace &f = faces()[face], &g = faces()[other];
+          const SpaceFace &f = faces_[face], &g = faces_[other];
           for (const auto &[dof, jump] : g.jumps)
           {
             if (work.is_summed[dof] == 0)
@@ -449,7 +190,7 @@ namespace plumbline::reference
         Row<Value> row;
         for (const unsigned int dof : work.columns)
         {
-          if (work.sums[dof] != Value() && (is_needed_[face] != 0 || dof < n_rows_))
+          if (work.sums[dof] != Value() && (sweep_->is_needed(face) || dof < n_rows_))
             row.push_back({dof, work.sums[dof]}); // else all cancels
           work.sums[dof] = Value();
           work.is_summed[dof] = 0;
@@ -459,11 +200,9 @@ namespace plumbline::reference
 
       const TetrahedralSpace &space_;
       std::size_t n_rows_;
-      SortedFaces faces_;
-      std::vector<double> largest_jump_; ///< of each face
-      std::vector<char> is_needed_;      ///< faces that rows asked for have
-      std::vector<std::unique_ptr<const FaceIntegrals>> integrals_; ///< of each part of the kernel
-      geometry::BoxSearch<3> search_;
+      std::vector<SpaceFace> faces_;
+      SortedFaces sorted_;
+      std::optional<FaceSweep> sweep_;
     };
 
     /// Of faces before `last`, what they add to the rows of unknowns.
@@ -636,12 +375,7 @@ namespace plumbline::reference
               for (std::size_t block = begin; block < end; ++block)
                 of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
               const std::lock_guard<std::mutex> lock(mutex);
-              for (const FaceIntegrals::Workspace &part : work.of_parts)
-              {
-                for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
-                  total.n_pairs[level] += part.use.n_pairs[level];
-                total.error = std::max(total.error, part.use.error);
-              }
+              work.of_pairs.add_use(total);
             },
             1);
         sums.add_faces(of_faces, blocks[first], blocks[last]);
@@ -652,9 +386,9 @@ namespace plumbline::reference
       if (space.is_continuous())
       {
         unit *= kernel.reach * kernel.reach;
-        std::array<double, 2> factors{};
-        for (std::size_t part = 0; part < of_face.n_parts(); ++part)
-          factors[part] = of_face.diffusion(part) / std::pow(kernel.reach, 3);
+        std::array<double, 2> factors = of_face.diffusion();
+        for (double &factor : factors)
+          factor /= std::pow(kernel.reach, 3);
         add_local(space, factors, rows);
       }
       if (use != nullptr)

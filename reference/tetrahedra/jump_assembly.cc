@@ -1,13 +1,10 @@
 #include "reference/tetrahedra/jump_assembly.h"
 
-#include "geometry/search.h"
 #include "geometry/tetrahedral_check.h"
 #include "geometry/tetrahedral_domain.h"
-#include "reference/tetrahedra/exact_pairs.h"
+#include "reference/tetrahedra/face_sweep.h"
 #include "reference/tetrahedra/jump_pairs.h"
-#include "reference/tetrahedra/lattice_faces.h"
 #include "reference/tetrahedra/layer_flux.h"
-#include "reference/tetrahedra/solid_kernel.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -15,10 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -184,21 +179,12 @@ namespace plumbline::reference
       return faces;
     }
 
-    std::vector<geometry::Cuboid> boxes_of(const std::vector<JumpFace> &faces)
+    /// All integrals of a pair of faces, of as many parts of a kernel as there are.
+    struct PairIntegrals
     {
-      std::vector<geometry::Cuboid> boxes;
-      for (const JumpFace &face : faces)
-        boxes.push_back(face.face.box());
-      return boxes;
-    }
-
-    /// All integrals of a pair of faces, of one part of a kernel.
-    struct PartIntegrals
-    {
-      ExactPairs::Integral slopes; ///< ∬Ψ
-      JumpIntegrals jumps;
+      std::array<double, 2> slopes{}; ///< ∬Ψ
+      std::array<JumpIntegrals, 2> jumps;
     };
-    using PairIntegrals = std::array<PartIntegrals, 2>; ///< of as many parts as there are
 
     /// What the pair adds to entries of a cell of F and one of G.
     template <class Value>
@@ -207,10 +193,9 @@ namespace plumbline::reference
     {
       const double cosine = f.normal * g.normal;
       const auto parts = [&](const auto &integral) -> std::array<double, 2> {
-        return {integral(pair[0]), integral(pair[1])};
+        return {integral(pair.jumps[0]), integral(pair.jumps[1])};
       };
-      const auto slopes =
-          parts([&](const PartIntegrals &part) { return -cosine * part.slopes.value; });
+      const std::array<double, 2> slopes = {-cosine * pair.slopes[0], -cosine * pair.slopes[1]};
       Matrix<Value> block{};
       for (unsigned int a = 0; a < n_corners; ++a)
         for (unsigned int b = 0; b < n_corners; ++b)
@@ -220,15 +205,14 @@ namespace plumbline::reference
           Value sum{};
           add_product(sum, slopes, of_f.slopes[a], of_g.slopes[b]);
           if (other >= 0)
-            add_product(sum, parts([j](const PartIntegrals &part) { return part.jumps.second[j]; }),
+            add_product(sum, parts([j](const JumpIntegrals &part) { return part.second[j]; }),
                         of_f.slopes[a], g.normal);
           if (at >= 0)
-            add_product(sum, parts([i](const PartIntegrals &part) { return part.jumps.first[i]; }),
+            add_product(sum, parts([i](const JumpIntegrals &part) { return part.first[i]; }),
                         f.normal, of_g.slopes[b]);
           if (at >= 0 && other >= 0)
-            add_product(
-                sum, parts([i, j](const PartIntegrals &part) { return part.jumps.values[i][j]; }),
-                f.normal, g.normal);
+            add_product(sum, parts([i, j](const JumpIntegrals &part) { return part.values[i][j]; }),
+                        f.normal, g.normal);
           sum *= factor * of_f.sign * of_g.sign;
           block[a][b] = sum;
         }
@@ -246,71 +230,81 @@ namespace plumbline::reference
           : n_needed_(n_rows / n_corners),
             faces_(make_jump_faces(space, kernel.reach, factors, is_continuous)),
             n_cells_(space.mesh().cells.size()), spacing_(rule.spacing / kernel.reach),
-            search_(boxes_of(faces_))
+            sorted_(space.mesh(), vertices_of(faces_), kernel.reach)
       {
-        double volume = 0;
-        for (std::size_t cell = 0; cell < n_cells_; ++cell)
-          volume += determinant(space.mesh(), cell) / 6 / std::pow(kernel.reach, 3);
-        const double of_cell = volume / static_cast<double>(n_cells_);
-        constexpr double of_slopes = 2. / 3; // ∇λ are like 1 / length
-        for (const PotentialKernel &part : kernel.parts)
+        std::vector<JumpFace> sorted;
+        std::vector<double> steepest;
+        std::vector<char> is_needed;
+        for (const std::size_t number : sorted_.order())
         {
-          potentials_.emplace_back(part, FacePotential::Kind::biharmonic);
-          jumps_.emplace_back(part, rule.of_jumps * kernel.m0 * of_cell);
-          if (rule.is_exact)
-            exact_.push_back(std::make_unique<const ExactPairs>(
-                part, FacePotential::Kind::biharmonic,
-                rule.tolerance * kernel.m0 * of_cell * std::pow(of_cell, of_slopes)));
-          else
-            by_rule_.emplace_back(potentials_.back(), rule.refinement);
+          const JumpFace &face = sorted.emplace_back(faces_[number]);
+          steepest.push_back(face.steepest);
+          is_needed.push_back(std::any_of(face.sides.begin(), face.sides.end(),
+                                          [this](const JumpSide &side)
+                                          { return side.cell < n_needed_; })
+                                  ? 1
+                                  : 0);
         }
-        for (const JumpFace &face : faces_)
-          is_needed_.push_back(std::any_of(face.sides.begin(), face.sides.end(),
-                                           [this](const JumpSide &side)
-                                           { return side.cell < n_needed_; })
-                                   ? 1
-                                   : 0);
+        faces_ = std::move(sorted);
+        const double of_cell = sorted_.volume_of_cell();
+        constexpr double of_slopes = 2. / 3; // ∇λ are like 1 / length
+        sweep_.emplace(sorted_, kernel, FacePotential::Kind::biharmonic, rule,
+                       of_cell * std::pow(of_cell, of_slopes), std::move(steepest),
+                       std::move(is_needed));
+        for (const PotentialKernel &part : kernel.parts)
+          jumps_.emplace_back(part, rule.of_jumps * kernel.m0 * of_cell);
       }
 
       const std::vector<JumpFace> &faces() const { return faces_; }
+      const std::vector<std::size_t> &blocks() const { return sorted_.blocks(); }
       std::size_t n_cells() const { return n_cells_; }
-      const geometry::BoxSearch<3> &search() const { return search_; }
-      std::size_t n_parts() const { return potentials_.size(); }
-      /// Of each part.
-      std::array<double, 2> diffusion() const
-      {
-        return {potentials_.front().diffusion(), potentials_.back().diffusion()};
-      }
+      const geometry::BoxSearch<3> &search() const { return sweep_->search(); }
+      std::array<double, 2> diffusion() const { return sweep_->diffusion(); }
+
+      using FaceRow = std::array<BlockRow<Value>, 2>; ///< of each cell of a face
 
       /// What a thread needs for itself.
       struct Workspace
       {
-        std::vector<unsigned int> near, place; ///< place: of cells among columns + 1, else 0
-        FaceRuleUse use;
-        double open = 0; ///< of one face: see FaceRuleUse
+        std::vector<unsigned int> place; ///< of cells among columns + 1, else 0
+        FaceSweep::Workspace of_pairs;
+        FaceRuleUse use; ///< of jumps
       };
 
-      /// For each cell of a face, what it adds to the cell's rows.
-      std::array<BlockRow<Value>, 2> rows_of(std::size_t face, Workspace &work) const
+      /// For each face of a block and each of its cells, what it adds to the cell's rows.
+      /// @param rows  as many as the block has faces
+      void add_block(std::size_t block, FaceRow *rows, Workspace &work) const
+      {
+        work.place.resize(n_cells_);
+        sweep_->for_each_face(block, work.of_pairs,
+                              [&](std::size_t face, const std::vector<unsigned int> &near)
+                              { rows[face - blocks()[block]] = make_row(face, near, work); });
+      }
+
+    private:
+      static std::vector<SortedFaces::Vertices> vertices_of(const std::vector<JumpFace> &faces)
+      {
+        std::vector<SortedFaces::Vertices> vertices;
+        for (const JumpFace &face : faces)
+          vertices.push_back(face.face.names());
+        return vertices;
+      }
+
+      FaceRow make_row(std::size_t face, const std::vector<unsigned int> &near,
+                       Workspace &work) const
       {
         const JumpFace &f = faces_[face];
-        std::array<BlockRow<Value>, 2> rows;
-        work.place.resize(n_cells_);
-        geometry::Cuboid box = search_.box(static_cast<unsigned int>(face));
-        for (unsigned int d = 0; d < 3; ++d)
+        FaceRow rows;
+        double open = 0;
+        for (std::size_t k = 0; k < near.size(); ++k)
         {
-          box.lower[d] -= 1;
-          box.upper[d] += 1;
-        }
-        search_.find(box, work.near);
-        work.open = 0;
-        for (const unsigned int other : work.near)
-        {
-          const JumpFace &g = faces_[other];
-          if (other < face || (is_needed_[face] == 0 && is_needed_[other] == 0) ||
-              are_out_of_reach(f.face, g.face))
+          const JumpFace &g = faces_[near[k]];
+          if (are_out_of_reach(f.face, g.face))
             continue;
-          const PairIntegrals pair = integrate(f, g, work);
+          PairIntegrals pair;
+          pair.slopes = work.of_pairs.values(k);
+          if (f.has_jumps || g.has_jumps)
+            pair.jumps = jumps_of(f, g, work, open);
           for (const JumpSide &of_g : g.sides)
           {
             if (work.place[of_g.cell] == 0)
@@ -320,11 +314,12 @@ namespace plumbline::reference
               work.place[of_g.cell] = static_cast<unsigned int>(rows[0].size());
             }
             for (std::size_t side = 0; side < f.sides.size(); ++side)
-              add<Value>(rows[side][work.place[of_g.cell] - 1].value,
-                         block_of<Value>(f, f.sides[side], g, of_g, pair, other == face ? .5 : 1));
+              add<Value>(
+                  rows[side][work.place[of_g.cell] - 1].value,
+                  block_of<Value>(f, f.sides[side], g, of_g, pair, near[k] == face ? .5 : 1));
           }
         }
-        work.use.open = std::max(work.use.open, work.open);
+        work.use.open = std::max(work.use.open, open);
         for (const Block<Value> &block : rows[0])
           work.place[block.cell] = 0;
         for (std::size_t side = 0; side < f.sides.size(); ++side)
@@ -332,7 +327,6 @@ namespace plumbline::reference
         return rows;
       }
 
-    private:
       /// @param is_needed  else columns that are
       void arrange(BlockRow<Value> &row, bool is_needed) const
       {
@@ -345,58 +339,36 @@ namespace plumbline::reference
                   [](const Block<Value> &a, const Block<Value> &b) { return a.cell < b.cell; });
       }
 
-      PairIntegrals integrate(const JumpFace &f, const JumpFace &g, Workspace &work) const
+      using PartJumps = std::array<JumpIntegrals, 2>;
+
+      /// @param open  what is added to for one face: see FaceRuleUse
+      PartJumps jumps_of(const JumpFace &f, const JumpFace &g, Workspace &work, double &open) const
       {
-        PairIntegrals pair;
-        const bool has_jumps = f.has_jumps || g.has_jumps;
-        if (const auto places = spacing_ > 0 && has_jumps
-                                    ? places_on_lattice(f.face, g.face, spacing_)
-                                    : std::optional<FacePlaces>())
-          pair = known(*places, work);
+        PartJumps parts;
+        if (const auto places = spacing_ > 0 ? places_on_lattice(f.face, g.face, spacing_)
+                                             : std::optional<FacePlaces>())
+          parts = known(*places, work);
         else
-        {
-          pair = make(f.face, g.face, has_jumps);
-          count(pair, work);
-        }
-        for (std::size_t part = 0; part < n_parts(); ++part)
-        {
-          const auto &[slopes, jumps] = pair[part];
-          // see block_of(): λ_a of one face by slopes of the other's cells
-          if (jumps.open > 0)
-            work.open +=
-                jumps.open * (1 + f.face.radius() * g.steepest + g.face.radius() * f.steepest);
-          work.use.error = std::max(work.use.error, slopes.error * f.steepest * g.steepest);
-        }
-        return pair;
+          parts = made(f.face, g.face, work);
+        // see block_of(): λ_a of one face by slopes of the other's cells
+        for (const JumpIntegrals &part : parts)
+          open += part.open * (1 + f.face.radius() * g.steepest + g.face.radius() * f.steepest);
+        return parts;
       }
 
-      void count(const PairIntegrals &pair, Workspace &work) const
+      PartJumps made(const PairFace &f, const PairFace &g, Workspace &work) const
       {
-        for (std::size_t part = 0; part < n_parts(); ++part)
+        PartJumps parts;
+        for (std::size_t part = 0; part < jumps_.size(); ++part)
         {
-          ++work.use.n_pairs[pair[part].slopes.level];
-          if (pair[part].jumps.open > 0)
-            ++work.use.n_open;
+          parts[part] = jumps_[part](f, g);
+          work.use.n_open += parts[part].open > 0 ? 1 : 0;
         }
-      }
-
-      PairIntegrals make(const PairFace &f, const PairFace &g, bool has_jumps) const
-      {
-        PairIntegrals pair;
-        for (std::size_t part = 0; part < n_parts(); ++part)
-        {
-          if (!exact_.empty())
-            pair[part].slopes = (*exact_[part])(f, g);
-          else
-            pair[part].slopes.value = by_rule_[part](f, g);
-          if (has_jumps)
-            pair[part].jumps = jumps_[part](f, g);
-        }
-        return pair;
+        return parts;
       }
 
       /// By the places alone, so that all threads have the same.
-      PairIntegrals known(const FacePlaces &places, Workspace &work) const
+      PartJumps known(const FacePlaces &places, Workspace &work) const
       {
         {
           const std::lock_guard<std::mutex> lock(mutex_);
@@ -404,25 +376,23 @@ namespace plumbline::reference
             return found->second;
         }
         const auto [f, g] = faces_at(places, spacing_);
-        const PairIntegrals pair = make(f, g, true);
+        Workspace own;
+        const PartJumps parts = made(f, g, own);
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (known_.try_emplace(places, pair).second)
-          count(pair, work);
-        return pair;
+        if (known_.try_emplace(places, parts).second)
+          work.use.n_open += own.use.n_open;
+        return parts;
       }
 
       std::size_t n_needed_; ///< cells whose rows are asked for
       std::vector<JumpFace> faces_;
       std::size_t n_cells_;
-      double spacing_;                       ///< [reaches]
-      std::deque<FacePotential> potentials_; ///< of each part, as the next ones
-      std::vector<JumpPairs> jumps_;
-      std::vector<FacePairs> by_rule_;
-      std::vector<std::unique_ptr<const ExactPairs>> exact_;
-      mutable std::map<FacePlaces, PairIntegrals> known_;
-      mutable std::mutex mutex_;    ///< of what is known
-      std::vector<char> is_needed_; ///< faces of cells that are
-      geometry::BoxSearch<3> search_;
+      double spacing_; ///< [reaches]
+      SortedFaces sorted_;
+      std::optional<FaceSweep> sweep_;
+      std::vector<JumpPairs> jumps_; ///< of each part
+      mutable std::map<FacePlaces, PartJumps> known_;
+      mutable std::mutex mutex_; ///< of what is known
     };
 
     /// rows += ½κ ∫ g_i·g_j + κ Σ_F ∫_F n·{g_i} [φ_j], of which the matrix has the transpose, too.
@@ -782,34 +752,35 @@ namespace plumbline::reference
                                 const BondFactors *factors, bool is_continuous)
     {
       const JumpRows<Value> of_face(space, kernel, n_rows, rule, factors, is_continuous);
-      const std::size_t n_needed = n_rows / n_corners, n_faces = of_face.faces().size();
+      const std::size_t n_needed = n_rows / n_corners;
+      const std::vector<std::size_t> &blocks = of_face.blocks();
       std::vector<BlockRow<Value>> rows(of_face.n_cells());
       std::mutex mutex;
       FaceRuleUse total;
       constexpr std::size_t n_at_once = 256; // some 50 MB of rows of faces
-      std::vector<std::array<BlockRow<Value>, 2>> of_faces;
-      for (std::size_t first = 0; first < n_faces; first += n_at_once)
+      std::vector<typename JumpRows<Value>::FaceRow> of_faces;
+      for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
       {
-        const std::size_t last = std::min(first + n_at_once, n_faces);
-        of_faces.assign(last - first, {});
+        while (last + 1 < blocks.size() &&
+               (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
+          ++last;
+        of_faces.assign(blocks[last] - blocks[first], {});
         dealii::parallel::apply_to_subranges(
             first, last,
             [&](std::size_t begin, std::size_t end)
             {
               typename JumpRows<Value>::Workspace work;
-              for (std::size_t face = begin; face < end; ++face)
-                of_faces[face - first] = of_face.rows_of(face, work);
+              for (std::size_t block = begin; block < end; ++block)
+                of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
               const std::lock_guard<std::mutex> lock(mutex);
-              for (unsigned int level = 0; level < total.n_pairs.size(); ++level)
-                total.n_pairs[level] += work.use.n_pairs[level];
-              total.error = std::max(total.error, work.use.error);
+              work.of_pairs.add_use(total);
               total.n_open += work.use.n_open;
               total.open = std::max(total.open, work.use.open);
             },
-            4);
-        for (std::size_t face = first; face < last; ++face)
+            1);
+        for (std::size_t face = blocks[first]; face < blocks[last]; ++face)
           for (std::size_t side = 0; side < of_face.faces()[face].sides.size(); ++side)
-            if (const BlockRow<Value> &row = of_faces[face - first][side]; !row.empty())
+            if (const BlockRow<Value> &row = of_faces[face - blocks[first]][side]; !row.empty())
               add(rows[of_face.faces()[face].sides[side].cell], row);
       }
       add_local(space, kernel.reach, of_face, rows, n_needed);

@@ -62,11 +62,11 @@ namespace
     unsigned int n() const { return problem.n_components; }
 
     /// Of P1, or of DGP1.
-    algebra::CsrMatrix rows(bool is_continuous, double of_jumps = 1e-6) const
+    algebra::CsrMatrix rows(bool is_continuous) const
     {
       FaceRule rule = FaceRule::exact();
       rule.tolerance = 1e-12;
-      rule.of_jumps = of_jumps;
+      rule.of_jumps = 1e-6;
       const TetrahedralSpace broken(mesh, TetrahedralShapes::discontinuous_linear());
       const BondFactors all = factors();
       if (!is_continuous)
@@ -189,20 +189,21 @@ TEST(BondFactors, stretch_bonds_of_solids_and_leave_rigid_motions)
 TEST(BondFactors, of_one_value_and_a_far_surface_are_a_factor)
 {
   constexpr double factor = 3;
-  const Body body(power(-1, Structure::tensor), mesh_of_cubes(1, 2), {factor, factor});
   FaceRule rule = FaceRule::exact();
   rule.tolerance = 1e-12;
   for (const bool is_continuous : {true, false})
   {
+    const Body body(power(-1, Structure::tensor), mesh_of_cubes(is_continuous ? 2 : 1, 2),
+                    {factor, factor});
     const TetrahedralSpace space = space_of(body, is_continuous);
-    if (is_continuous && space.n_free() == 0)
-      continue;
     algebra::CsrMatrix expected =
         assemble_by_faces(space, body.problem.kernel, space.n_free(), rule);
+    ASSERT_GT(expected.n_rows(), 0u);
     for (double &value : expected.value)
       value *= factor;
     EXPECT_LT(difference(body.rows(is_continuous), expected), is_continuous ? 1e-11 : 1e-14);
   }
+  const Body body(power(-1, Structure::tensor), mesh_of_cubes(1, 2), {factor, factor});
   const TetrahedralSpace constants(body.mesh, false);
   algebra::CsrMatrix rows = body.rows_of_constants(), expected = rows;
   set_factors_of_cells(body.factors(), constants, 3, rows);

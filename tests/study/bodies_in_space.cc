@@ -19,11 +19,11 @@ namespace
   using in_space::available;
   using in_space::Settings;
 
-  /// A bar of cells 1/2 long: held for x < 1/2, soft up to x = 1, then stiff.
+  /// A bar of cubes 1/2 long: held for x < 1/2, soft up to x = 1, then stiff.
   geometry::TetrahedralMesh bar()
   {
     geometry::TetrahedralMesh mesh =
-        geometry::six_per_cube({{{{{0, 0, 0}, {2, 1, 1}}}, {}}, .5}, 0);
+        geometry::six_per_cube({{{{{0, 0, 0}, {2, .5, .5}}}, {}}, .5}, 0);
     mesh.groups = {"omega_soft", "omega_stiff", "collar_grip"};
     for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
     {
@@ -98,8 +98,8 @@ TEST_F(BodiesInSpace, have_bonds_with_the_mean_of_their_materials)
   const auto rule = find("FA")->discretise_in_space(problem);
   const auto equations = equations_of(*rule)->equations(problem);
   const auto coefficient = [](const Point<3> &x) { return x[0] < 1 ? 1. : 4.; };
-  ASSERT_EQ(equations.nodes.size(), 6u * 4 * 2 * 2);
-  ASSERT_EQ(equations.n_free, 6u * 3 * 2 * 2);
+  ASSERT_EQ(equations.nodes.size(), 6u * 4);
+  ASSERT_EQ(equations.n_free, 6u * 3);
   std::size_t n_bonds = 0;
   for (std::size_t i = 0; i < equations.n_free; ++i)
   {
@@ -121,7 +121,7 @@ TEST_F(BodiesInSpace, have_bonds_with_the_mean_of_their_materials)
     }
     EXPECT_NEAR(row[i], sum, 1e-12 * sum);
   }
-  EXPECT_GT(n_bonds, 1000u);
+  EXPECT_GT(n_bonds, 100u);
 }
 
 TEST_F(BodiesInSpace, that_are_held_and_not_loaded_do_not_move)

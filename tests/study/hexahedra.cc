@@ -154,7 +154,7 @@ TEST_F(ProblemsOnHexahedra, are_refused_where_methods_or_settings_do_not_fit)
   expect_refused({{"Methods/names", "Q2"}}, "are hexahedra; take Q1, DGQ0");
   expect_refused(
       {{"Kernel/type", "bond-tensor"}, {"Kernel/limit", "Navier"}, {"Problem/solution", "x, y, z"}},
-      "by P1, DGP0 and DGQ0; take these");
+      "by P1, DGP0, DGP1 and DGQ0; take these");
   EXPECT_EQ(message_of({{"Kernel/type", "gaussian"}, {"Kernel/width", ".5"}}), "");
   expect_refused({{"Methods/names", "FA"}}, "write Methods/nodes = mesh (the centroids");
   // quadrature is that of Q1 alone

@@ -1,0 +1,205 @@
+#pragma once
+
+#include "geometry/search.h"
+#include "reference/tetrahedra/assembly.h"
+#include "reference/tetrahedra/exact_pairs.h"
+#include "reference/tetrahedra/lattice_faces.h"
+#include "reference/tetrahedra/solid_kernel.h"
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace plumbline::reference
+{
+  /// Faces of a mesh, those that are near to each other together, by cubes a vertex or two wide,
+  /// which are the blocks. Lengths are in reaches.
+  class SortedFaces
+  {
+  public:
+    using Vertices = std::array<unsigned int, 3>;
+
+    /// @param faces  all of the mesh, each once
+    SortedFaces(const TetrahedralMesh &mesh, const std::vector<Vertices> &faces, double reach);
+
+    std::size_t size() const { return order_.size(); }
+    /// The number that each was given with.
+    const std::vector<std::size_t> &order() const { return order_; }
+    const NumberedFace &numbered(std::size_t face) const { return numbered_[face]; }
+    /// First faces of blocks, and the end.
+    const std::vector<std::size_t> &blocks() const { return blocks_; }
+    double volume_of_vertex() const { return of_vertex_; } ///< the mean
+    double volume_of_cell() const { return of_cell_; }     ///< the mean
+    std::vector<geometry::Cuboid> boxes() const;
+
+  private:
+    void sort(const std::vector<PairFace::Vertices> &places);
+
+    double of_vertex_ = 0, of_cell_ = 0;
+    std::vector<std::size_t> order_, blocks_;
+    std::vector<PairFace> scaled_;
+    std::vector<NumberedFace> numbered_;
+  };
+
+  /// ∬_{F×G} of one potential, of a face F and those near it.
+  class FaceIntegrals
+  {
+  public:
+    /// @param kernel  a part of a SolidKernel
+    /// @param largest_jump  of each face
+    /// @param size_of_pair  by which round-off is measured [1]
+    /// @param spacing  of a lattice, or 0 [reaches]
+    FaceIntegrals(const PotentialKernel &kernel, FacePotential::Kind kind, const SortedFaces &faces,
+                  const std::vector<double> &largest_jump, const FaceRule &rule, double spacing,
+                  double size_of_pair)
+        : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind), spacing_(spacing)
+    {
+      if (rule.is_exact)
+        exact_.emplace(kernel, kind, rule.tolerance * size_of_pair);
+      else
+        by_rule_.emplace(potential_, rule.refinement);
+    }
+
+    double diffusion() const { return potential_.diffusion(); }
+
+    /// What a thread needs for itself.
+    struct Workspace
+    {
+      std::vector<double> values; ///< of a face and those near it
+      ExactPairs::Shared shared;
+      std::vector<const NumberedFace *> others; ///< of them, those that are not known
+      std::vector<std::size_t> places;          ///< of those there
+      std::vector<ExactPairs::Integral> exact;  ///< their integrals
+      FaceRuleUse use;
+    };
+
+    /// For pairs of some faces, the first of each pair, with others.
+    void start(const std::vector<const NumberedFace *> &first,
+               const std::vector<const NumberedFace *> &second, Workspace &work) const
+    {
+      if (exact_)
+        work.shared.start(first, second);
+    }
+
+    /// work.values = those of a face and those near it.
+    void find(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
+    {
+      const NumberedFace &f = faces_.numbered(face);
+      work.values.assign(near.size(), 0);
+      if (!exact_)
+        for (std::size_t k = 0; k < near.size(); ++k)
+          work.values[k] = (*by_rule_)(*f.face, *faces_.numbered(near[k]).face);
+      work.others.clear();
+      work.places.clear();
+      for (std::size_t k = 0; exact_ && k < near.size(); ++k)
+        if (const NumberedFace &g = faces_.numbered(near[k]);
+            spacing_ == 0 || !find_repeated(f, g, work, work.values[k]))
+        {
+          work.others.push_back(&g);
+          work.places.push_back(k);
+        }
+      if (work.others.empty())
+        return;
+      (*exact_)(f, work.others, work.shared, work.exact);
+      for (std::size_t k = 0; k < work.others.size(); ++k)
+      {
+        ++work.use.n_pairs[work.exact[k].level];
+        work.values[work.places[k]] = noted(f, *work.others[k], work.exact[k], work);
+      }
+    }
+
+  private:
+    double noted(const NumberedFace &f, const NumberedFace &g, const ExactPairs::Integral &integral,
+                 Workspace &work) const
+    {
+      work.use.error = std::max(work.use.error,
+                                integral.error * largest_jump_[f.number] * largest_jump_[g.number]);
+      return integral.value;
+    }
+
+    /// @return  whether both are faces of a lattice
+    bool find_repeated(const NumberedFace &f, const NumberedFace &g, Workspace &work,
+                       double &value) const
+    {
+      const auto places = places_on_lattice(*f.face, *g.face, spacing_);
+      if (places)
+        value = noted(f, g, known(*places, work), work);
+      return places.has_value();
+    }
+
+    /// By the places alone, so that all threads have the same.
+    ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
+    {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (const auto found = known_.find(places); found != known_.end())
+          return found->second;
+      }
+      const auto [f, g] = faces_at(places, spacing_);
+      const ExactPairs::Integral integral = (*exact_)(f, g);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (known_.try_emplace(places, integral).second)
+        ++work.use.n_pairs[integral.level];
+      return integral;
+    }
+
+    const SortedFaces &faces_;
+    const std::vector<double> &largest_jump_;
+    FacePotential potential_;
+    double spacing_; ///< [reaches]
+    std::optional<FacePairs> by_rule_;
+    std::optional<ExactPairs> exact_;
+    mutable std::map<FacePlaces, ExactPairs::Integral> known_;
+    mutable std::mutex mutex_; ///< of what is known
+  };
+
+  /// Integrals of the parts of a kernel over pairs of faces, each pair once, block by block: a face
+  /// F with all faces G about it that are not before it. Thread safe.
+  class FaceSweep
+  {
+  public:
+    /// @param kind          of the potential
+    /// @param size_of_pair  by which round-off is measured: what m₀ is multiplied by in a diagonal
+    /// entry, divided by jumps [reach^3]
+    /// @param largest_jump  of each face, sorted
+    /// @param is_needed     of each face: one of a pair must be
+    FaceSweep(const SortedFaces &faces, const SolidKernel &kernel, FacePotential::Kind kind,
+              const FaceRule &rule, double size_of_pair, std::vector<double> largest_jump,
+              std::vector<char> is_needed);
+
+    std::size_t n_parts() const { return integrals_.size(); }
+    /// Of each part; 0 where there is none.
+    std::array<double, 2> diffusion() const;
+    const geometry::BoxSearch<3> &search() const { return search_; }
+    bool is_needed(std::size_t face) const { return is_needed_[face] != 0; }
+
+    /// What a thread needs for itself.
+    struct Workspace
+    {
+      std::vector<unsigned int> near;
+      std::array<FaceIntegrals::Workspace, 2> of_parts;
+
+      /// Of face number k of those near.
+      std::array<double, 2> values(std::size_t k) const;
+      void add_use(FaceRuleUse &total) const; ///< of pairs
+    };
+
+    /// Of a face of a block and those near it, whose integrals the workspace has.
+    using Action = std::function<void(std::size_t face, const std::vector<unsigned int> &near)>;
+    void for_each_face(std::size_t block, Workspace &work, const Action &action) const;
+
+  private:
+    void find_candidates(std::size_t first, std::size_t last, Workspace &work) const;
+    bool are_partners(std::size_t face, std::size_t other) const;
+
+    const SortedFaces &faces_;
+    std::vector<double> largest_jump_;
+    std::vector<char> is_needed_;
+    std::vector<std::unique_ptr<const FaceIntegrals>> integrals_; ///< of each part
+    geometry::BoxSearch<3> search_;
+  };
+} // namespace plumbline::reference
