@@ -52,10 +52,11 @@ namespace plumbline::reference
       method::Capabilities can() const override
       {
         using method::Capability;
-        method::Capabilities can = {Capability::meshes,     Capability::free_boundary,
-                                    Capability::floating,   Capability::heterogeneous,
-                                    Capability::dilatation, Capability::nonlocal,
-                                    Capability::dynamic,    Capability::cracks};
+        method::Capabilities can = {
+            Capability::meshes,        Capability::free_boundary, Capability::floating,
+            Capability::heterogeneous, Capability::dilatation,    Capability::nonlocal,
+            Capability::dynamic,       Capability::cracks,        Capability::damaged_dilatation,
+            Capability::free_surfaces};
         if (n_vertices_ == 3)
           can.insert(Capability::triangles);
         else
@@ -100,11 +101,18 @@ namespace plumbline::reference
           return "no cell of Domain/mesh = " + problem.on_mesh()->name +
                  " has its centroid in Domain/fixed, so that nothing holds the body; give smaller "
                  "cells there, or take meshfree methods alone";
-        if (problem.settings.solver.iteration == base::Iteration::cg && problem.dilatation &&
-            !problem.dilatation->is_symmetric())
+        const problem::SurfaceTerms terms = problem.damage.surface_terms;
+        if (problem.dilatation && problem.damage.is_there() &&
+            terms != problem::SurfaceTerms::none && terms != problem::SurfaceTerms::energy)
+          return "Galerkin methods have no forces in place of missing bonds, but Material/surface "
+                 "terms is " +
+                 base::word(terms) + "; write energy or none";
+        if (problem.settings.solver.iteration == base::Iteration::cg && !is_symmetric(problem))
           return "Solver/iteration = cg needs a symmetric operator, but harmonic means of "
-                 "constants "
-                 "that vary in space (LPS) make none; write automatic, gmres or bicgstab";
+                 "constants that vary in space (LPS) and Material/surface terms = none at cracks "
+                 "make none; write automatic, gmres or bicgstab";
+        if (problem.damage.outside && problem.mesh() && !problem.mesh()->wholes.empty())
+          return "Domain/outside and Domain/sides = curved; write Domain/sides = straight";
         if (by_quadrature_ && problem.mesh() && !problem.mesh()->wholes.empty())
           return "Domain/sides = curved has no entries by quadrature; take " +
                  GalerkinMethod(n_vertices_, is_continuous_, degree_).name() +

@@ -58,8 +58,9 @@ namespace plumbline::meshfree
                std::pair<std::size_t, std::size_t> share, bool keeps_dilatation)
           : cells_(*body.cells), dilatation_(body.dilatation),
             has_collar_dilatation_(body.has_collar_dilatation), keeps_dilatation_(keeps_dilatation),
-            share_(share), links_(families, body, share), row_(cells_.size()),
-            n_unknowns_(2 * cells_.n_free), surface_terms_(body, links_, material_)
+            has_energy_(body.damage.surface_terms == problem::SurfaceTerms::energy), share_(share),
+            links_(families, body, share), row_(cells_.size()), n_unknowns_(2 * cells_.n_free),
+            surface_terms_(body, links_, material_)
       {
         for (const Point<2> &x : cells_.nodes)
           material_.push_back(dilatation_.is_homogeneous && !material_.empty()
@@ -110,8 +111,8 @@ namespace plumbline::meshfree
           const Lame &other = material_[j], pair = pair_constants(dilatation_, own, other);
           if (link.is_intact)
           {
-            own_factor -= link.strength * dilatation_.factor(own, other) * link.xi;
-            add_dilatation(j, -link.strength * dilatation_.factor(other, own) * link.xi);
+            own_factor -= dilatation_.factor(own, other) * force_direction(i, link);
+            add_dilatation(j, -dilatation_.factor(other, own) * force_direction(j, link));
             const Tensor<2, 2> bond =
                 8 * pair.mu * link.strength * outer_product(link.direction, link.direction);
             add(j, -bond);
@@ -128,6 +129,12 @@ namespace plumbline::meshfree
         add_dilatation(i, own_factor);
         put_row(0);
         put_row(1);
+      }
+
+      /// Of the force by the dilatation of a bond's end: K ξ, by the energy K M ξ.
+      Tensor<1, 2> force_direction(unsigned int node, const Link &link) const
+      {
+        return has_energy_ ? links_.gradient(node, link) : link.strength * link.xi;
       }
 
       void add(unsigned int node, const Tensor<2, 2> &block)
@@ -205,7 +212,7 @@ namespace plumbline::meshfree
 
       const geometry::NodeCells<2> &cells_;
       const physics::Dilatation<2> &dilatation_;
-      bool has_collar_dilatation_, keeps_dilatation_;
+      bool has_collar_dilatation_, keeps_dilatation_, has_energy_;
       std::pair<std::size_t, std::size_t> share_;
       Links links_;
       BlockRow row_;

@@ -53,7 +53,8 @@ namespace plumbline::meshfree
   std::optional<SurfaceTerms::Force> SurfaceTerms::force(unsigned int i)
   {
     const problem::SurfaceTerms terms = body_->damage.surface_terms;
-    if (links_->is_whole(i) || terms == problem::SurfaceTerms::none)
+    if (links_->is_whole(i) || terms == problem::SurfaceTerms::none ||
+        terms == problem::SurfaceTerms::energy)
       return {};
     double reach = 0;
     for (const Link &link : links_->of(i))

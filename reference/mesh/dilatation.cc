@@ -72,7 +72,7 @@ namespace plumbline::reference
       }
 
       void integrate(const OuterCell &outer, Block &block);
-      /// @pre  parts are there
+      /// @pre  parts are there, the cell is not cut
       void integrate_family(const OuterCell &outer, Family &family);
 
     private:
@@ -103,7 +103,8 @@ namespace plumbline::reference
     {
       const auto n = static_cast<Eigen::Index>(outer.dofs.size());
       find_slots(outer);
-      if (parts_.is_there())
+      known_.clear();
+      if (parts_.is_there() && !outer.is_cut)
         parts_.find(outer, known_);
       theta_.resize(2 * n);
       test_.resize(2 * n);
@@ -324,10 +325,10 @@ namespace plumbline::reference
     std::optional<WeightedVolume> volume;
     if (options.is_normalised)
       volume.emplace(space.mesh(), dilatation.influence);
-    std::vector<OuterCell> outer =
-        find_outer(space, cells, translations, dilatation.influence.horizon());
+    std::vector<OuterCell> outer = find_outer(
+        space, cells, translations, dilatation.influence.horizon(), options.cracks, options.gaps);
     const DilatationRow row(space, cells, dilatation, materials, 2 + 2 * options.refinement,
-                            options.backend);
+                            options.backend, options.correction, options.cracks);
     const DilatationParts parts(space, outer, translations, rule.unit, row);
     keep_share(space, communicator, outer);
     algebra::CsrMatrix rows = make_pattern(space, outer);

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "algebra/csr_matrix.h"
-#include "physics/state_based.h"
-#include "reference/mesh/cells.h"
-#include "reference/mesh/space.h"
+#include "reference/mesh/dilatation_row.h"
 
 namespace plumbline::reference
 {
@@ -15,6 +13,9 @@ namespace plumbline::reference
     /// (`WeightedVolume`), arithmetic mean.
     bool is_normalised = false;
     geometry::Backend backend = geometry::Backend::fast;
+    Correction correction = Correction::none;
+    std::vector<geometry::Cut> cracks = {}; ///< see `DilatationRow`
+    std::vector<geometry::Box> gaps = {};   ///< beyond free surfaces: no cells of the mesh
   };
 
   /// What the dilatation adds to the Galerkin matrix of a state-based solid's bonds,
@@ -28,11 +29,12 @@ namespace plumbline::reference
   /// of that or less; degree 0 loses a factor 8 a refinement, 3e-3 at first. Cost: .15 ms for each
   /// outer point on squares of degree 1, four of them a cell at first; once for all cells whose
   /// surroundings are translations of each other, whatever their materials, if these are constant
-  /// in each cell. What is left then is to add to the matrix.
+  /// in each cell. What is left then is to add to the matrix. Within δ of cracks and gaps every
+  /// outer point costs, and the outer rule crosses the kinks that shadows of their ends make.
   /// @param space  its mesh has a collar 2δ wide, or ends at a free boundary
   /// @return  rows of the free unknowns, columns of all, as MeshMatrix::rows
-  /// Sources: Fan et al. 2022, eq. (2.5); with normalised θ and degree 0 on squares Pflug, Stingl &
-  /// Zetzmann 2026, eqs. (13)-(15).
+  /// Sources: Fan et al. 2022, eqs. (2.5), (3.21); with normalised θ and degree 0 on squares Pflug,
+  /// Stingl & Zetzmann 2026, eqs. (13)-(15).
   algebra::CsrMatrix assemble_dilatation(const MeshSpace &space, const MeshCells &cells,
                                          const physics::Dilatation<2> &dilatation,
                                          const DilatationOptions &options,

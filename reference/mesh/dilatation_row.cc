@@ -44,9 +44,12 @@ namespace plumbline::reference
   DilatationRow::DilatationRow(const MeshSpace &space, const MeshCells &cells,
                                const physics::Dilatation<2> &dilatation,
                                std::vector<physics::Lame> materials, unsigned int smooth_degree,
-                               geometry::Backend backend)
+                               geometry::Backend backend, Correction correction,
+                               std::vector<geometry::Cut> cracks)
       : space_(space), cells_(cells), dilatation_(dilatation), profile_(dilatation.influence),
         materials_(std::move(materials)), smooth_degree_(smooth_degree), backend_(backend),
+        correction_(correction), cracks_(std::move(cracks)),
+        degree_(std::max(space.shapes().degree(), correction == Correction::none ? 0u : 1u)),
         whole_(whole_rules(space.shapes())), theta_(2 * space.shapes().size()),
         test_(2 * space.shapes().size())
   {
@@ -63,6 +66,7 @@ namespace plumbline::reference
     own_ = materials_.empty() ? dilatation_.material(x) : materials_[cell];
     std::fill(theta.begin(), theta.end(), 0.);
     std::fill(test.begin(), test.end(), 0.);
+    moment_.clear();
     std::array<double, 2> theta_sum{}, test_sum{};
     for (std::size_t k = 0; k < near.size(); ++k)
     {
@@ -70,7 +74,7 @@ namespace plumbline::reference
       if (x.distance(cells_.centroid(inner)) >=
           dilatation_.influence.horizon() + cells_.radius(inner))
         continue;
-      const double *const part = known.empty() ? integrate(x, inner).data() : known[k];
+      const double *const part = known.empty() ? integrate_visible(x, inner).data() : known[k];
       const double factor = is_geometry_alone() ? factor_of(inner) : 1;
       const double *const of_test = is_geometry_alone() ? part : test_.data();
       for (unsigned int a = 0; a < n; ++a)
@@ -93,6 +97,20 @@ namespace plumbline::reference
         theta[to] -= phi_[a] * theta_sum[c];
         test[to] -= phi_[a] * test_sum[c];
       }
+    if (correction_ == Correction::none || !known.empty())
+      return;
+    const dealii::Tensor<2, 2> correction = invert(moment_);
+    const auto correct = [&](std::vector<double> &row)
+    {
+      for (auto xi = row.begin(); xi != row.end(); xi += 2)
+      {
+        const auto corrected = correction * dealii::Tensor<1, 2>({xi[0], xi[1]});
+        std::copy(corrected.begin_raw(), corrected.end_raw(), xi);
+      }
+    };
+    correct(theta);
+    if (correction_ == Correction::energy)
+      correct(test);
   }
 
   /// f of x and a cell.
@@ -105,20 +123,44 @@ namespace plumbline::reference
   {
     std::fill(theta_.begin(), theta_.end(), 0.);
     std::fill(test_.begin(), test_.end(), 0.);
-    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
-    profile_.for_balls(distance - radius, distance + radius,
-                       [&](double ball_radius, const SmoothEntries &influence) {
-                         add_ball({x, ball_radius}, influence, inner);
-                       });
+    add_region(x, cells_[inner], inner);
     return theta_;
   }
 
-  /// An influence function without breaks on ball ∩ cell.
+  /// Of what is seen of the cell from x.
+  const std::vector<double> &DilatationRow::integrate_visible(const Point<2> &x, std::size_t inner)
+  {
+    const auto vertices = cells_[inner].vertices();
+    const geometry::Sight sight = geometry::find_between(cracks_, {&x, 1}, vertices, between_);
+    if (sight == geometry::Sight::clear)
+      return integrate(x, inner);
+    std::fill(theta_.begin(), theta_.end(), 0.);
+    std::fill(test_.begin(), test_.end(), 0.);
+    if (sight == geometry::Sight::hidden)
+      return theta_;
+    geometry::find_visible(x, vertices, between_, seen_);
+    for (const geometry::Polygon &part : seen_)
+      add_region(x, geometry::ConvexCell(part), inner);
+    return theta_;
+  }
+
+  /// @param region  the cell, or a part of it
+  void DilatationRow::add_region(const Point<2> &x, const geometry::ConvexCell &region,
+                                 std::size_t inner)
+  {
+    const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
+    profile_.for_balls(distance - radius, distance + radius,
+                       [&](double ball_radius, const SmoothEntries &influence) {
+                         add_ball({x, ball_radius}, influence, region, inner);
+                       });
+  }
+
+  /// An influence function without breaks on ball ∩ region.
   void DilatationRow::add_ball(const geometry::Ball &ball, const SmoothEntries &influence,
-                               std::size_t inner)
+                               const geometry::ConvexCell &region, std::size_t inner)
   {
     const Point<2> &x = ball.centre;
-    const double *phi = find_rule(ball, influence, inner);
+    const double *phi = find_rule(ball, influence, region, inner);
     const std::size_t n = space_.shapes().size();
     for (std::size_t q = 0; q < rule_.points.size(); ++q, phi += n)
     {
@@ -127,6 +169,8 @@ namespace plumbline::reference
       double k;
       influence.operator()<1>(xi[0], xi[1], &k);
       k *= rule_.weights[q];
+      if (correction_ != Correction::none)
+        moment_ += k * outer_product(dealii::Tensor<1, 2>(xi), dealii::Tensor<1, 2>(xi));
       for (std::size_t a = 0; a < n; ++a)
       {
         theta_[2 * a] += k * xi[0] * phi[a];
@@ -144,13 +188,12 @@ namespace plumbline::reference
     }
   }
 
-  /// rule_ on ball(x) ∩ cell. @return  shape functions at its points, shape (n_points, n_shapes)
+  /// rule_ on ball(x) ∩ region. @return  shape functions at its points, shape (n_points, n_shapes)
   const double *DilatationRow::find_rule(const geometry::Ball &ball, const SmoothEntries &influence,
-                                         std::size_t inner)
+                                         const geometry::ConvexCell &region, std::size_t inner)
   {
     const Point<2> &x = ball.centre;
     const CellShapes &shapes = space_.shapes();
-    const geometry::ConvexCell &cell = cells_[inner];
     const CellMap &map = space_.map(inner);
     const double distance = x.distance(cells_.centroid(inner)), radius = cells_.radius(inner);
     const unsigned int smooth = map.is_affine() && is_geometry_alone() ? 0 : smooth_degree_;
@@ -159,10 +202,10 @@ namespace plumbline::reference
     if (!influence.is_smooth())
       kernel += degree_away_from_singularity(distance, radius, accuracy);
     const bool is_whole =
-        std::all_of(cell.vertices().begin(), cell.vertices().end(),
+        &region == &cells_[inner] &&
+        std::all_of(region.vertices().begin(), region.vertices().end(),
                     [&](const Point<2> &v) { return v.distance(x) <= ball.radius; });
-    if (const unsigned int i = (kernel + shapes.degree() + smooth) / 2;
-        i < whole_.size() && is_whole)
+    if (const unsigned int i = (kernel + degree_ + smooth) / 2; i < whole_.size() && is_whole)
     {
       const ShapeRule &whole = whole_[i];
       rule_.points.resize(whole.unit.size());
@@ -175,11 +218,11 @@ namespace plumbline::reference
       return whole.phi.data();
     }
     // along a line shape functions of squares have twice their degree along an axis
-    const unsigned int line = shapes.degree() * (shapes.n_vertices() - 2) + smooth;
+    const unsigned int line = degree_ * (shapes.n_vertices() - 2) + smooth;
     if (influence.is_smooth())
-      geometry::cut_rule(ball, cell, kernel + line, rule_, backend_);
+      geometry::cut_rule(ball, region, kernel + line, rule_, backend_);
     else // along a ray Kξ and the factor r of the weights are a polynomial
-      geometry::polar_rule(ball, cell, std::min(most_angles, kernel / 2 + 1),
+      geometry::polar_rule(ball, region, std::min(most_angles, kernel / 2 + 1),
                            (2 + highest + line) / 2 + 1, rule_, backend_);
     phi_.resize(rule_.points.size() * shapes.size());
     for (std::size_t q = 0; q < rule_.points.size(); ++q)

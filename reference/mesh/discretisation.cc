@@ -68,6 +68,40 @@ namespace plumbline::reference
                                   "shear modulus", physics::Mean::arithmetic);
     }
 
+    /// Of each cell of the mesh whether it is one of the interaction domain beyond a free surface;
+    /// empty: there is no surface.
+    std::vector<char> find_ghosts(const problem::Problem<2> &problem)
+    {
+      std::vector<char> is_ghost;
+      const auto outside = problem.damage.outside;
+      for (std::size_t i = 0; outside && i < problem.mesh()->cells.size(); ++i)
+      {
+        const geometry::Polygon cell = problem.mesh()->polygon(i);
+        is_ghost.push_back(!problem.mesh()->cells[i].is_inside &&
+                           outside(geometry::ConvexCell(cell).moments().centroid) > 0);
+      }
+      return is_ghost;
+    }
+
+    /// The places of these cells.
+    std::vector<geometry::Box> find_gaps(const problem::Problem<2> &problem)
+    {
+      std::vector<geometry::Box> gaps;
+      const std::vector<char> is_ghost = find_ghosts(problem);
+      for (std::size_t i = 0; i < is_ghost.size(); ++i)
+        if (is_ghost[i] != 0)
+          gaps.push_back(geometry::bounding_box(geometry::view(problem.mesh()->polygon(i))));
+      return gaps;
+    }
+
+    Correction correction_of(const problem::Damage<2> &damage)
+    {
+      if (!damage.is_there())
+        return Correction::none;
+      return damage.surface_terms == problem::SurfaceTerms::energy ? Correction::energy
+                                                                   : Correction::dilatation;
+    }
+
     /// The matrix with an outer rule refined so many times.
     MeshMatrix assemble_all(const problem::Problem<2> &problem, const MeshSpace &space,
                             const MeshCells &cells, const AssemblyOptions &options,
@@ -78,20 +112,53 @@ namespace plumbline::reference
       if (problem.dilatation)
       {
         const DilatationOptions dilatation{options.refinement, problem.body() != nullptr,
-                                           options.backend};
+                                           options.backend,    correction_of(problem.damage),
+                                           options.cracks,     find_gaps(problem)};
         matrix.rows = add(matrix.rows, assemble_dilatation(space, cells, *problem.dilatation,
                                                            dilatation, communicator));
         matrix.is_exact = false;
         matrix.way += ", dilatations by quadrature";
+        if (dilatation.correction != Correction::none)
+          matrix.way += ", corrected where bonds are missing";
       }
       return matrix;
+    }
+
+    /// Without the cells beyond free surfaces, which only complete families of nodes.
+    std::shared_ptr<const geometry::Mesh> mesh_of_body(const problem::Problem<2> &problem)
+    {
+      const std::vector<char> is_ghost = find_ghosts(problem);
+      if (is_ghost.empty())
+        return problem.mesh();
+      constexpr unsigned int none = -1;
+      const geometry::Mesh &all = *problem.mesh();
+      std::vector<unsigned int> number(all.vertices.size(), none);
+      geometry::Mesh body;
+      body.groups = all.groups;
+      for (std::size_t i = 0; i < all.cells.size(); ++i)
+      {
+        geometry::MeshCell cell = all.cells[i];
+        for (unsigned int v = 0; v < cell.n_vertices && is_ghost[i] == 0; ++v)
+        {
+          unsigned int &own = number[cell.vertex[v]];
+          if (own == none)
+          {
+            own = static_cast<unsigned int>(body.vertices.size());
+            body.vertices.push_back(all.vertices[cell.vertex[v]]);
+          }
+          cell.vertex[v] = own;
+        }
+        if (is_ghost[i] == 0)
+          body.cells.push_back(cell);
+      }
+      return std::make_shared<const geometry::Mesh>(std::move(body));
     }
 
     /// Spaces stand on triangles with straight sides, whose functions go on up to the curves.
     std::shared_ptr<const geometry::Mesh> mesh_of_space(const problem::Problem<2> &problem)
     {
       if (problem.mesh()->wholes.empty())
-        return problem.mesh();
+        return mesh_of_body(problem);
       return std::make_shared<const geometry::Mesh>(geometry::straightened(*problem.mesh()));
     }
 
@@ -115,7 +182,7 @@ namespace plumbline::reference
                                           const MeshSpace &space)
     {
       algebra::SparseOptions options;
-      options.is_symmetric = !problem.dilatation || problem.dilatation->is_symmetric();
+      options.is_symmetric = is_symmetric(problem);
       options.n_components = problem.n_components;
       for (std::size_t dof = 0; dof < space.n_free(); ++dof)
         options.nodes.push_back(space.support(dof));
@@ -139,7 +206,7 @@ namespace plumbline::reference
           : SparseDiscretisation(problem.settings.solver, solver_options(problem, *space),
                                  communicator),
             problem_(problem), space_(std::move(space)),
-            cells_(std::make_shared<const MeshCells>(*problem.mesh())),
+            cells_(std::make_shared<const MeshCells>(*mesh_of_body(problem))),
             options_{0, exact_entries, problem.settings.geometry.backend,
                      geometry::straight_parts(problem.damage.cracks)}
       {
@@ -332,6 +399,13 @@ namespace plumbline::reference
     return std::make_unique<GalerkinOnMesh>(
         problem, make_space(problem, is_continuous, degree, communicator.n_ranks()), exact_entries,
         communicator);
+  }
+
+  bool is_symmetric(const problem::Problem<2> &problem)
+  {
+    return !problem.dilatation || (problem.dilatation->is_symmetric() &&
+                                   (!problem.damage.is_there() ||
+                                    problem.damage.surface_terms == problem::SurfaceTerms::energy));
   }
 
   std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous,

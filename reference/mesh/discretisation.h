@@ -15,6 +15,9 @@ namespace plumbline::reference
   discretise_on_mesh(const problem::Problem<2> &problem, bool is_continuous, unsigned int degree,
                      bool exact_entries, const base::Communicator &communicator);
 
+  /// Whether its matrices are symmetric.
+  bool is_symmetric(const problem::Problem<2> &problem);
+
   /// Why a space cannot have its matrix where sides follow curves, and the remedy; empty: it can.
   std::string refuse_curves(const problem::Problem<2> &problem, bool is_continuous,
                             unsigned int degree);

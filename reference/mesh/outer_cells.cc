@@ -1,5 +1,6 @@
 #include "reference/mesh/outer_cells.h"
 
+#include "geometry/search.h"
 #include "reference/mesh/rows.h"
 
 #include <algorithm>
@@ -43,13 +44,19 @@ namespace plumbline::reference
   } // namespace
 
   std::vector<OuterCell> find_outer(const MeshSpace &space, const MeshCells &cells,
-                                    const Translations &translations, double horizon)
+                                    const Translations &translations, double horizon,
+                                    const std::vector<geometry::Cut> &cracks,
+                                    const std::vector<geometry::Box> &gaps)
   {
+    const geometry::BoxSearch<2> gap_search(gaps);
+    const dealii::Tensor<1, 2> reach({horizon, horizon});
     std::vector<OuterCell> all(cells.size());
     in_parallel(cells.size(),
                 [&](std::size_t first, std::size_t last)
                 {
                   std::vector<char> is_known(space.n_dofs());
+                  std::vector<geometry::Cut> between;
+                  std::vector<unsigned int> found;
                   for (std::size_t cell = first; cell < last; ++cell)
                   {
                     OuterCell &outer = all[cell];
@@ -58,6 +65,17 @@ namespace plumbline::reference
                     if (translations.has_few_shapes())
                       sort_as_translated(cell, translations, outer.near);
                     list_dofs(space, outer, is_known);
+                    const auto own = cells[cell].vertices();
+                    const geometry::Box box = geometry::bounding_box(own);
+                    gap_search.find({box.lower - reach, box.upper + reach}, found);
+                    outer.is_cut = !found.empty() ||
+                                   std::any_of(outer.near.begin(), outer.near.end(),
+                                               [&](unsigned int other)
+                                               {
+                                                 return geometry::find_between(
+                                                            cracks, own, cells[other].vertices(),
+                                                            between) != geometry::Sight::clear;
+                                               });
                   }
                 });
     all.erase(std::remove_if(all.begin(), all.end(),
@@ -75,6 +93,11 @@ namespace plumbline::reference
     std::vector<std::size_t> first;
     for (std::size_t i = 0; i < outer.size(); ++i)
     {
+      if (outer[i].is_cut)
+      {
+        first.push_back(i);
+        continue;
+      }
       Surroundings own;
       for (const unsigned int near : outer[i].near)
         own.push_back(translations.pair(outer[i].cell, near));

@@ -174,6 +174,8 @@ TEST(GrowCommand, tells_what_surface_terms_do)
           " --set 'Fracture/surface terms=consistent' --set 'Material/surface terms=none'",
       "Fracture/surface terms = consistent contradicts Material/surface terms = none");
   expect_refused("grow " + plate() + " --set 'Fracture/surface terms=perhaps'", "consistent");
+  expect_refused("grow " + plate() + " --set 'Material/surface terms=energy'",
+                 "Material/surface terms = energy is not implemented for fracture");
 }
 
 TEST(GrowCommand, does_without_a_factor)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 using namespace plumbline;
@@ -213,6 +214,30 @@ TEST(SurfaceTerms, consistent_ones_are_exact_at_oblique_free_surfaces)
   EXPECT_LT(solved(stretched_along(angle, .3, damage), square).error, 1e-12);
   damage.surface_terms = SurfaceTerms::published;
   EXPECT_GT(solved(stretched_along(angle, .3, damage), square).error, 1e-6);
+}
+
+// With one material: what the dilatations do to u they do to forces.
+TEST(SurfaceTerms, forces_of_the_energy_are_symmetric)
+{
+  const Square square(M_PI / 16, half, .5);
+  const auto asymmetry = [&](SurfaceTerms terms)
+  {
+    const StateBasedProblem problem = crack_tip(.3, terms, false);
+    const algebra::CsrMatrix rows = StateBasedCase(problem, square).system().rows;
+    std::map<std::pair<std::size_t, std::size_t>, double> entries;
+    double largest = 0, worst = 0;
+    for (std::size_t i = 0; i < rows.n_rows(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      {
+        entries[{i, rows.column[k]}] = rows.value[k];
+        largest = std::max(largest, std::abs(rows.value[k]));
+      }
+    for (const auto &[place, value] : entries)
+      worst = std::max(worst, std::abs(value - entries[{place.second, place.first}]));
+    return worst / largest;
+  };
+  EXPECT_LT(asymmetry(SurfaceTerms::energy), 1e-13);
+  EXPECT_GT(asymmetry(SurfaceTerms::none), 1e-3);
 }
 
 // A crack given in pieces is the same crack; only its true end is a tip.

@@ -4,6 +4,7 @@
 #include "reference/mesh/dilatation.h"
 
 #include "geometry/mesh_input.h"
+#include "geometry/visible_part.h"
 #include "reference/lattice/dilatation.h"
 #include "reference/mesh/assembly.h"
 #include "reference/mesh/dilatation_row.h"
@@ -39,8 +40,12 @@ namespace
     algebra::CsrMatrix assemble(const Dilatation<2> &dilatation, unsigned int refinement,
                                 bool is_normalised = false) const
     {
-      return reference::assemble_dilatation(space, cells, dilatation,
-                                            {refinement, is_normalised, geometry::Backend::fast},
+      return assemble(dilatation, {refinement, is_normalised, geometry::Backend::fast});
+    }
+    algebra::CsrMatrix assemble(const Dilatation<2> &dilatation,
+                                const reference::DilatationOptions &options) const
+    {
+      return reference::assemble_dilatation(space, cells, dilatation, options,
                                             base::Communicator::alone());
     }
 
@@ -70,14 +75,14 @@ namespace
     return mesh;
   }
 
-  /// The unit square alone, with nothing around it.
-  Mesh free_square(double h, bool is_triangles)
+  /// The cells of a mesh for which a condition holds.
+  template <class Condition>
+  Mesh part_of(const Mesh &mesh, const Condition &is_kept)
   {
-    const Mesh mesh = geometry::lattice_mesh(unit_square, h, h, is_triangles);
     Mesh inside;
     std::map<unsigned int, unsigned int> number;
     for (geometry::MeshCell cell : mesh.cells)
-      if (cell.is_inside)
+      if (is_kept(cell))
       {
         for (unsigned int v = 0; v < cell.n_vertices; ++v)
         {
@@ -90,6 +95,13 @@ namespace
         inside.cells.push_back(cell);
       }
     return inside;
+  }
+
+  /// The unit square alone, with nothing around it.
+  Mesh free_square(double h, bool is_triangles)
+  {
+    return part_of(geometry::lattice_mesh(unit_square, h, h, is_triangles),
+                   [](const geometry::MeshCell &cell) { return cell.is_inside; });
   }
 
   Dilatation<2> homogeneous(physics::RadialProfile profile, double horizon)
@@ -183,6 +195,38 @@ namespace
   {
     return Point<2>(x[0] * x[0] + 2 * x[0] * x[1], x[1] * x[1] - 3 * x[0] * x[1]);
   }
+
+  /// ∫ K ξ·(u(x+ξ) - u(x)) dξ of the quadratic field over what is seen, and with M ξ for ξ.
+  std::array<double, 2> visible_dilatation(const geometry::VisibleBody &body,
+                                           const physics::Kernel<2> &influence, const Point<2> &x)
+  {
+    const geometry::Ball ball{x, influence.horizon()};
+    std::vector<geometry::Polygon> visible;
+    body.find(ball, visible);
+    const auto m = geometry::weighted_moments(
+        ball, visible, [&](double r) { return influence.radial(r); }, 3);
+    const double u[2][2] = {{2 * x[0] + 2 * x[1], 2 * x[0]}, {-3 * x[1], 2 * x[1] - 3 * x[0]}};
+    // ∫ K (u_a(x+ξ) - u_a(x)) ξ_c dξ
+    const double p[2][2] = {{u[0][0] * m[3] + u[0][1] * m[4] + m[6] + 2 * m[7],
+                             u[0][0] * m[4] + u[0][1] * m[5] + m[7] + 2 * m[8]},
+                            {u[1][0] * m[3] + u[1][1] * m[4] + m[8] - 3 * m[7],
+                             u[1][0] * m[4] + u[1][1] * m[5] + m[9] - 3 * m[8]}};
+    const double determinant = m[3] * m[5] - m[4] * m[4];
+    return {p[0][0] + p[1][1],
+            (m[5] * p[0][0] - m[4] * (p[0][1] + p[1][0]) + m[3] * p[1][1]) / determinant};
+  }
+
+  /// The cells below a line y = top.
+  Mesh lower_part(const Mesh &mesh, double top)
+  {
+    return part_of(mesh,
+                   [&](const geometry::MeshCell &cell)
+                   {
+                     return std::all_of(cell.vertex.begin(), cell.vertex.begin() + cell.n_vertices,
+                                        [&](unsigned int v)
+                                        { return mesh.vertices[v][1] < top + 1e-9; });
+                   });
+  }
 } // namespace
 
 TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
@@ -202,6 +246,59 @@ TEST(DilatationRow, GivesTheDivergenceOfLinearAndQuadraticFields)
                               [](const Point<2> &x) { return -x[0] + 4 * x[1]; }),
                     3e-13);
         }
+}
+
+// The oracle takes the visible part of the whole ball at once, not cell by cell.
+TEST(DilatationRow, IsOverWhatIsSeenPastCracksAndOfABody)
+{
+  using reference::Correction;
+  const double delta = .3;
+  const std::vector<geometry::Polyline> along_sides = {{Point<2>(-5, .5), Point<2>(.5, .5)}},
+                                        through_cells = {{Point<2>(.21, .33), Point<2>(.47, .41),
+                                                          Point<2>(.72, .83)}};
+  struct Case
+  {
+    std::vector<geometry::Polyline> cracks;
+    double top; ///< of the body, below a free surface
+  };
+  unsigned int n_far_from_whole = 0;
+  for (const Case &one :
+       {Case{along_sides, 2}, Case{through_cells, 2}, Case{{}, 1}, Case{along_sides, 1}})
+    for (const bool is_triangles : {true, false})
+    {
+      const Discrete discrete(lower_part(square_mesh(.125, delta, is_triangles), one.top), false,
+                              2);
+      const geometry::VisibleBody body({{{-1, -1}, {2, -1}, {2, one.top}, {-1, one.top}}},
+                                       one.cracks, 1e-9 * delta);
+      const auto values = discrete.interpolate(quadratic);
+      std::vector<unsigned int> near, slot(discrete.space.n_dofs());
+      std::iota(slot.begin(), slot.end(), 0u);
+      std::vector<double> theta(values.size()), test(values.size());
+      for (const auto &profile : {singular, constant})
+        for (const Correction correction : {Correction::dilatation, Correction::energy})
+        {
+          const Dilatation<2> dilatation = homogeneous(profile, delta);
+          reference::DilatationRow row(discrete.space, discrete.cells, dilatation, {}, 2,
+                                       geometry::Backend::fast, correction,
+                                       geometry::straight_parts(one.cracks));
+          for (std::size_t cell = 0; cell < discrete.cells.size(); ++cell)
+            for (const Point<2> &unit : {Point<2>(.3, .3), Point<2>(.01, .4), Point<2>(.5, 1e-6)})
+            {
+              if (!discrete.space.mesh().cells[cell].is_inside)
+                continue;
+              discrete.cells.find_near(cell, delta, near);
+              row.evaluate(cell, unit, near, {}, slot, theta, test);
+              const auto [whole, corrected] = visible_dilatation(
+                  body, dilatation.influence, discrete.space.map(cell).point(unit));
+              EXPECT_NEAR(std::inner_product(theta.begin(), theta.end(), values.begin(), 0.),
+                          corrected, 1e-11);
+              EXPECT_NEAR(.5 * std::inner_product(test.begin(), test.end(), values.begin(), 0.),
+                          correction == Correction::energy ? corrected : whole, 1e-11);
+              n_far_from_whole += std::abs(whole - corrected) > .01 ? 1 : 0;
+            }
+        }
+    }
+  EXPECT_GT(n_far_from_whole, 1000u);
 }
 
 TEST(WeightedVolume, IsTwoInAFullBallAndItsShareAtTheBoundary)
@@ -299,6 +396,88 @@ TEST(MeshDilatation, IsBlindToConstantsAndSymmetricWhereItShouldBe)
           else
             EXPECT_GT(asymmetry(rows), 1e-4);
         }
+      }
+}
+
+TEST(MeshDilatation, PastCracksIsBlindToRigidMotionsAndWithAnEnergySymmetric)
+{
+  using reference::Correction;
+  const auto cracks =
+      geometry::straight_parts({{Point<2>(.25, .5), Point<2>(.75, .5)},
+                                {Point<2>(.3, -1), Point<2>(.37, .1), Point<2>(.2, .3)}});
+  for (const bool is_triangles : {true, false})
+    for (const unsigned int degree : {0u, 1u})
+    {
+      const Discrete discrete(square_mesh(.25, .8, is_triangles), false, degree);
+      const auto translation =
+          discrete.interpolate([](const Point<2> &) { return Point<2>(1, -2); });
+      const auto rotation =
+          discrete.interpolate([](const Point<2> &x) { return Point<2>(-x[1], x[0]); });
+      for (const auto &dilatation :
+           {homogeneous(singular, .4), heterogeneous(.4, false), heterogeneous(.4, true)})
+        for (const Correction correction : {Correction::dilatation, Correction::energy})
+        {
+          const auto rows = discrete.assemble(
+              dilatation, {0, false, geometry::Backend::fast, correction, cracks});
+          EXPECT_LT(largest(product(rows, translation)), 1e-13 * largest(rows.value));
+          if (degree > 0) // constants in cells are no rotation
+          {
+            EXPECT_LT(largest(product(rows, rotation)), 1e-13 * largest(rows.value));
+          }
+          if (dilatation.is_symmetric() && correction == Correction::energy)
+            EXPECT_LT(asymmetry(rows), 1e-14);
+          else
+            EXPECT_GT(asymmetry(rows), 1e-4);
+        }
+    }
+}
+
+TEST(MeshDilatation, OfABodyThatACrackCutsOffIsThatOfTheBodyAlone)
+{
+  using reference::Correction;
+  for (const bool is_triangles : {true, false})
+    for (const unsigned int degree : {0u, 1u})
+      for (const Correction correction : {Correction::dilatation, Correction::energy})
+      {
+        const Discrete all(square_mesh(.125, .4, is_triangles), false, degree),
+            body(lower_part(all.space.mesh(), .5), false, degree);
+        std::vector<geometry::Box> gaps;
+        std::vector<std::size_t> dof_of_body(all.space.n_dofs(), body.space.n_dofs());
+        std::size_t n_kept = 0;
+        for (std::size_t cell = 0; cell < all.cells.size(); ++cell)
+          if (all.cells.centroid(cell)[1] > .5)
+            gaps.push_back(all.cells[cell].box());
+          else
+          {
+            for (unsigned int a = 0; a < all.space.shapes().size(); ++a)
+              dof_of_body[all.space.dofs(cell)[a]] = body.space.dofs(n_kept)[a];
+            ++n_kept;
+          }
+        ASSERT_EQ(n_kept, body.cells.size());
+        const Dilatation<2> dilatation = homogeneous(singular, .2);
+        const reference::DilatationOptions alone{0, false, geometry::Backend::fast, correction};
+        reference::DilatationOptions cut = alone, with_gaps = alone;
+        cut.cracks = {{Point<2>(-5, .5), Point<2>(5, .5)}};
+        with_gaps.gaps = gaps;
+        const auto of_all = all.assemble(dilatation, cut),
+                   of_body = body.assemble(dilatation, with_gaps);
+        auto expected = entries(of_body);
+        double worst = 0;
+        for (const auto &[place, value] : entries(of_all))
+          if (const std::size_t row = dof_of_body[place.first / 2]; row < body.space.n_dofs())
+          {
+            const std::size_t column = dof_of_body[place.second / 2];
+            const auto other =
+                expected.find({2 * row + place.first % 2, 2 * column + place.second % 2});
+            worst =
+                std::max(worst, std::abs(value - (other == expected.end() ? 0 : other->second)));
+            if (other != expected.end())
+              other->second = 0;
+          }
+        for (const auto &[place, value] : expected)
+          worst = std::max(worst, std::abs(value)); // none is missing
+        EXPECT_LT(worst, 1e-12 * largest(of_body.value));
+        EXPECT_GT(largest(of_body.value), 0);
       }
 }
 

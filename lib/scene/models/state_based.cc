@@ -135,7 +135,7 @@ namespace plumbline::scene
             "[force/length^2]");
         keys.add(
             "surface terms", base::word(material.surface_terms),
-            one_of({"automatic", "published", "none", "consistent"}),
+            one_of({"automatic", "published", "none", "consistent", "energy"}),
             [&material](const std::string &text)
             { material.surface_terms = *base::from_word<SurfaceTerms>(text); },
             "Forces that replace those of missing bonds at crack faces and free surfaces "
@@ -147,6 +147,9 @@ namespace plumbline::scene
             "stress along a face. consistent: exact in uniaxial stress along straight faces, also "
             "oblique ones "
             "and on interfaces, and without a net force at tips of cracks along rows of nodes. "
+            "energy: as none, and the forces derive from the energy of the bonds and the corrected "
+            "dilatations, so that they also balance in moment. Galerkin methods support energy and "
+            "none. "
             "automatic: published; in 'plumbline grow' Fracture/surface terms decides.");
         keys.add("dilatation in interaction domain", material.has_collar_dilatation, "zero",
                  "from data",

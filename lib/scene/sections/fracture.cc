@@ -83,6 +83,10 @@ namespace plumbline::scene
 
   void FractureSection::complete(SurfaceTerms of_material)
   {
+    if (is_there() && of_material == SurfaceTerms::energy)
+      throw InputError("Material/surface terms = energy is not implemented for fracture (section "
+                       "Fracture); clear it, or write uncorrected as Fracture/surface terms, whose "
+                       "forces derive from an energy, too");
     if (surface_terms == SurfaceTerms::automatic)
       surface_terms =
           of_material == SurfaceTerms::automatic ? SurfaceTerms::uncorrected : of_material;
