@@ -20,7 +20,7 @@ namespace plumbline::problem
     floating, ///< a body of which nothing is fixed
     heterogeneous,
     cracks,             ///< that stand
-    free_surfaces,      ///< of bodies of nodes alone, Domain/outside
+    free_surfaces,      ///< where families end, Domain/outside
     damaged_dilatation, ///< beside either
     notch,              ///< that opens
     dilatation,

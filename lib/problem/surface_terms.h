@@ -13,8 +13,7 @@ namespace plumbline::problem
     none,        ///< corrected dilatation alone
     consistent,  ///< exact in uniaxial stress along straight faces, and without a net force there
     uncorrected, ///< neither terms nor corrected dilatation; forces that have an energy
-    energy       ///< none, and forces that have the energy of bonds and corrected dilatations: its
-                 ///< adjoint
+    energy       ///< as none, with the correction in the forces, too: they derive from an energy
   };
 } // namespace plumbline::problem
 
