@@ -61,7 +61,7 @@ namespace plumbline::toughness
       const Json &set = json.at("cases").at(0).at("sets").back();
       Entry entry;
       entry.fraction = scene.random.fraction;
-      entry.rule = base::word(scene.sampling.rule);
+      entry.rule = scene.sampling.rule_words();
       if (scene.random.n_modes > 0)
         entry.rule += ", " + std::to_string(scene.random.n_modes) + " modes";
       set.at("samples").get_to(entry.n_samples);

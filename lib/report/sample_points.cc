@@ -9,9 +9,10 @@ namespace plumbline::report
 {
   namespace
   {
-    std::string name_of(const study::SampleSet &set)
+    std::string name_of(const study::SampleSet &set, bool has_several_rules)
     {
       return "weight of " + counted(set.samples.size(), "sample") +
+             (has_several_rules ? " by " + base::word(set.rule) : "") +
              (set.n_modes > 0 ? " with " + counted(set.n_modes, "mode") : "");
     }
   } // namespace
@@ -30,10 +31,11 @@ namespace plumbline::report
         table.rows.back().push_back(number_cell(value));
       table.rows.back().resize(1 + variables.size() + plan.sets.size(), empty_cell());
     }
+    const bool has_several_rules = plan.last_like(0) + 1 < plan.sets.size();
     for (std::size_t s = 0; s < plan.sets.size(); ++s)
     {
       const study::SampleSet &set = plan.sets[s];
-      table.columns.push_back(name_of(set));
+      table.columns.push_back(name_of(set, has_several_rules));
       for (std::size_t k = 0; k < set.samples.size(); ++k)
         table.rows[set.samples[k]][1 + variables.size() + s] = number_cell(set.weights[k]);
     }

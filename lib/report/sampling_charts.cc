@@ -59,6 +59,12 @@ namespace plumbline::report
       return has_several_methods(results) ? one.of.method + ", " : "";
     }
 
+    /// Where there are several.
+    std::string name_of(const SamplingResults &results, uq::SampleRule rule)
+    {
+      return results.sampling.has_several_rules() ? ", " + base::word(rule) : "";
+    }
+
     DataChart empty_chart(const std::string &name, const std::string &title,
                           const std::string &x_label, const std::string &y_label,
                           const std::string &caption)
@@ -83,7 +89,11 @@ namespace plumbline::report
             chart.data.rows.push_back({text_cell(one.of.method), number_cell(one.of.h),
                                        count_cell(set.n_modes), count_cell(set.n_samples),
                                        number_cell(set.seconds), error_cell(*y)});
+            if (results.sampling.has_several_rules())
+              chart.data.rows.back().push_back(text_cell(base::word(set.rule)));
           }
+      if (results.sampling.has_several_rules())
+        chart.data.columns.emplace_back("rule");
       for (Line &line : chart.plot.lines)
         std::sort(line.points.begin(), line.points.end(),
                   [](const Vertex &a, const Vertex &b) { return a.x < b.x; });
@@ -111,19 +121,22 @@ namespace plumbline::report
       { return one.is_target_level ? 0 : set.seconds; };
       const auto modes = [](const CaseStatistics &, const SetStatistics &set)
       { return static_cast<double>(set.n_modes); };
-      const auto of_modes = [&](const SetStatistics &set)
-      { return results.sampling.modes.empty() ? "" : ", " + counted(set.n_modes, "mode"); };
+      const auto of_rule_and_modes = [&](const SetStatistics &set)
+      {
+        return name_of(results, set.rule) +
+               (results.sampling.modes.empty() ? "" : ", " + counted(set.n_modes, "mode"));
+      };
       const auto of_h = [&](const CaseStatistics &one)
       {
         return name_of(results, one) + "h = " + rounded(one.of.h) +
                (one.is_target_level ? " (finest)" : "");
       };
       const auto by_h = [&](const CaseStatistics &one, const SetStatistics &set)
-      { return of_h(one) + of_modes(set); };
+      { return of_h(one) + of_rule_and_modes(set); };
       const auto by_set = [&](const CaseStatistics &one, const SetStatistics &set)
-      { return name_of(results, one) + counted(set.n_samples, "sample") + of_modes(set); };
+      { return name_of(results, one) + counted(set.n_samples, "sample") + of_rule_and_modes(set); };
       const auto by_count = [&](const CaseStatistics &one, const SetStatistics &set)
-      { return of_h(one) + ", count " + std::to_string(set.count); };
+      { return of_h(one) + name_of(results, set.rule) + ", count " + std::to_string(set.count); };
       DataChart over_samples = empty_chart(
           what + "-samples", "Error of the " + what + " versus samples", "samples [1]", error_label,
           "Each line falls at the rate of the sampling rule down to the discretisation error, "
@@ -206,8 +219,10 @@ namespace plumbline::report
     void add_histograms(const SamplingResults &results, std::vector<DataChart> &charts)
     {
       constexpr std::size_t least = 16;
-      const bool is_of_equal_weights = results.sampling.rule == uq::SampleRule::monte_carlo ||
-                                       results.sampling.rule == uq::SampleRule::quasi_monte_carlo;
+      const auto &rules = results.sampling.rules; // samples are those of the first
+      const bool is_of_equal_weights =
+          !rules.empty() && (rules.front() == uq::SampleRule::monte_carlo ||
+                             rules.front() == uq::SampleRule::quasi_monte_carlo);
       for (const CaseStatistics &one : results.cases)
         for (const auto &[name, of_samples] : one.values)
         {
@@ -256,7 +271,7 @@ namespace plumbline::report
     const auto &nodes = one.field->places.points;
     const MapCells cells = cells_of(nodes, one.of.h);
     const std::string title = "Damage: broken bonds";
-    const bool is_cut = results.cases.back().sets.back().negative_part > 0;
+    const bool is_cut = results.cases.back().leading()->negative_part > 0;
     return {{"damage", title,
              damage_script({map_of("mean", nodes, one.field->mean, cells),
                             map_of("deviation", nodes, one.field->deviation, cells)},

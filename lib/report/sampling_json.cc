@@ -33,7 +33,8 @@ namespace plumbline::report
 
     Json to_json(const SetStatistics &set)
     {
-      Json json{{"count", set.count},
+      Json json{{"rule", base::word(set.rule)},
+                {"count", set.count},
                 {"modes", set.n_modes},
                 {"samples", set.n_samples},
                 {"missing", set.n_missing},
@@ -69,7 +70,7 @@ namespace plumbline::report
     const bool has_field = r.random.field != scene::FieldKind::none;
     Json json{{"schema", sampling_schema},
               {"scene", r.scene_name},
-              {"rule", base::word(r.sampling.rule)},
+              {"rule", r.sampling.rule_words()},
               {"growth", base::word(r.sampling.growth)},
               {"seed", r.sampling.seed},
               {"field_seed", has_field ? Json(r.random.seed) : Json()},
@@ -82,6 +83,7 @@ namespace plumbline::report
               {"failures", Json::array()},
               {"cheapest", Json::array()},
               {"balance", Json::array()},
+              {"comparisons", Json::array()},
               {"cases", Json::array()},
               {"scene_text", r.scene_text}};
     for (const auto &failure : r.failures)
@@ -93,6 +95,7 @@ namespace plumbline::report
                                   {"problem", pair.problem},
                                   {"series", pair.series},
                                   {"h", pair.h},
+                                  {"rule", base::word(pair.rule)},
                                   {"count", pair.count},
                                   {"modes", pair.n_modes},
                                   {"error", pair.error},
@@ -102,10 +105,21 @@ namespace plumbline::report
                                  {"problem", one.problem},
                                  {"series", one.series},
                                  {"h", one.h},
+                                 {"rule", base::word(one.rule)},
                                  {"modes", one.n_modes},
                                  {"enough", one.enough ? Json(*one.enough) : Json()},
                                  {"largest", one.largest},
                                  {"error", one.error}});
+    for (const study::RuleComparison &one : r.comparisons)
+    {
+      Json entry{{"method", one.method},     {"problem", one.problem},
+                 {"series", one.series},     {"h", one.h},
+                 {"quantity", one.quantity}, {"error", one.error},
+                 {"samples", Json::object()}};
+      for (const study::RuleComparison::Need &need : one.needs)
+        entry["samples"][base::word(need.rule)] = need.n_samples;
+      json["comparisons"].push_back(std::move(entry));
+    }
     for (const CaseStatistics &one : r.cases)
     {
       Json entry{{"method", one.of.method}, {"problem", one.of.problem},

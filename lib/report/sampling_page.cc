@@ -2,6 +2,7 @@
 
 #include "report/counted.h"
 #include "report/text_table.h"
+#include "study/rule_comparison.h"
 #include "study/sampling_balance.h"
 #include "study/seeds.h"
 
@@ -44,21 +45,39 @@ namespace plumbline::report
 
     const SetStatistics *best(const SamplingResults &results)
     {
-      return results.cases.empty() || results.cases.back().sets.empty()
-                 ? nullptr
-                 : &results.cases.back().sets.back();
+      return results.cases.empty() ? nullptr : results.cases.back().leading();
     }
 
-    /// What the rule is, and what its weights do.
+    /// Where there are several.
+    std::string by_rule(const SamplingResults &results, uq::SampleRule rule)
+    {
+      return results.sampling.has_several_rules() ? " by " + base::word(rule) : "";
+    }
+
+    /// What a rule's weights do.
+    std::string weight_words(const SamplingResults &r, const SetStatistics &set)
+    {
+      return ". Weights w of the largest set" + by_rule(r, set.rule) +
+             ": Σ|w| = " + rounded(set.sum_of_sizes) +
+             ", amplification factor of the sampling noise ‖w‖₂ = " + rounded(set.noise) +
+             (set.noise > 1 ? " (independent errors of the samples are amplified)"
+                            : " (independent errors of the samples are reduced)");
+    }
+
+    /// What the rules are, and what their weights do.
     std::string rule_words(const SamplingResults &r)
     {
       const auto &sampling = r.sampling;
       const std::size_t n_variables = r.random.laws().size();
-      std::string text = "Sampling rule: " + base::word(sampling.rule);
-      if (sampling.rule == uq::SampleRule::smolyak)
-        text += " (growth " + base::word(sampling.growth) + ")";
-      if (sampling.rule == uq::SampleRule::monte_carlo)
-        text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
+      std::string text = sampling.has_several_rules() ? "Sampling rules: " : "Sampling rule: ";
+      for (std::size_t i = 0; i < sampling.rules.size(); ++i)
+      {
+        text += (i == 0 ? "" : ", ") + base::word(sampling.rules[i]);
+        if (sampling.rules[i] == uq::SampleRule::smolyak)
+          text += " (growth " + base::word(sampling.growth) + ")";
+        if (sampling.rules[i] == uq::SampleRule::monte_carlo)
+          text += " (Sampling/seed = " + std::to_string(sampling.seed) + ")";
+      }
       text += ", " + counted(n_variables, "variable") + ", " + counted(r.n_samples, "sample") +
               " in all sets";
       if (r.spectrum)
@@ -68,12 +87,11 @@ namespace plumbline::report
       if (r.sampling.is_axis())
         text += ". The variables are not random: they run from end to end of their intervals, over "
                 "which means and deviations are taken by the trapezoidal rule";
-      else if (const SetStatistics *const set = best(r))
-        text += ". Weights w of the largest set: Σ|w| = " + rounded(set->sum_of_sizes) +
-                ", amplification factor of the sampling noise ‖w‖₂ = " + rounded(set->noise) +
-                (set->noise > 1 ? " (independent errors of the samples are amplified)"
-                                : " (independent errors of the samples are reduced)");
-      if (sampling.rule == uq::SampleRule::monte_carlo)
+      else if (!r.cases.empty())
+        for (const uq::SampleRule rule : sampling.rules)
+          if (const SetStatistics *const set = r.cases.back().last_of(rule))
+            text += weight_words(r, *set);
+      if (std::count(sampling.rules.begin(), sampling.rules.end(), uq::SampleRule::monte_carlo) > 0)
         text += ". Confidence intervals of means (95 %, Student's t) do not include errors that "
                 "all samples have in common, such as that of h";
       return text + ".";
@@ -114,7 +132,8 @@ namespace plumbline::report
       const study::Key &of = r.cases.back().of;
       return text.empty() ? ""
                           : "Means by " + of.method + " at h = " + rounded(of.h) + " over " +
-                                counted(set->n_samples, "sample") + ": " + text + ". ";
+                                counted(set->n_samples, "sample") + by_rule(r, set->rule) + ": " +
+                                text + ". ";
     }
 
     /// Of all sets but those of a level that is its own target.
@@ -135,7 +154,19 @@ namespace plumbline::report
                  : "The smallest error of the mean, " + rounded(*least->mean_error) +
                        " [unit of the field], is that of " + of->of.method +
                        " at h = " + rounded(of->of.h) + " with count " +
-                       std::to_string(least->count) + words_of_modes(r, least->n_modes) + ". ";
+                       std::to_string(least->count) + words_of_modes(r, least->n_modes) +
+                       by_rule(r, least->rule) + ". ";
+    }
+
+    /// Of the least target, which several rules may reach.
+    const study::CheapestPair &cheapest_of_rules(const SamplingResults &r)
+    {
+      const study::CheapestPair *least = &r.cheapest.back();
+      for (const study::CheapestPair &pair : r.cheapest)
+        if (pair.target == least->target && pair.problem == least->problem &&
+            pair.series == least->series && pair.seconds < least->seconds)
+          least = &pair;
+      return *least;
     }
 
     std::string verdict(const SamplingResults &r, const std::vector<std::string> &faults)
@@ -146,12 +177,13 @@ namespace plumbline::report
                 " failed. ";
       if (!r.cheapest.empty())
       {
-        const study::CheapestPair &pair = r.cheapest.back();
+        const study::CheapestPair &pair = cheapest_of_rules(r);
         text += mean_words(r) + pair.method + " at h = " + rounded(pair.h) + " with count " +
                 std::to_string(pair.count) + words_of_modes(r, pair.n_modes) +
-                " is the cheapest choice with a relative " + (is_own(r) ? "difference" : "error") +
-                " of the mean below " + short_power(pair.target) + ": error at most " +
-                rounded(pair.error) + " [unit of the field] with this count and larger ones, " +
+                by_rule(r, pair.rule) + " is the cheapest choice with a relative " +
+                (is_own(r) ? "difference" : "error") + " of the mean below " +
+                short_power(pair.target) + ": error at most " + rounded(pair.error) +
+                " [unit of the field] with this count and larger ones, " +
                 rounded_seconds(pair.seconds) + " of CPU time. ";
       }
       else
@@ -159,6 +191,8 @@ namespace plumbline::report
         const std::string means = mean_words(r);
         text += means.empty() ? least_error_words(r) : means;
       }
+      if (!r.comparisons.empty())
+        text += words_of(r.comparisons.front()) + ". ";
       for (std::size_t i = 0; i < faults.size(); ++i)
         text += (i == 0 ? "Not as expected: " : "; ") + faults[i] +
                 (i + 1 == faults.size() ? ". " : "");
@@ -167,12 +201,15 @@ namespace plumbline::report
       return text.empty() ? "All samples have been computed." : text;
     }
 
-    /// A sentence for each method and level.
+    /// A sentence for each method and level; before them those of rules that the verdict has not.
     std::vector<std::string> balance(const SamplingResults &r)
     {
       std::vector<std::string> sentences;
+      for (std::size_t i = 1; i < r.comparisons.size(); ++i)
+        sentences.push_back(words_of(r.comparisons[i]));
       for (const study::SamplingBalance &one : r.balance)
-        sentences.push_back(words_of(one, !r.sampling.modes.empty()));
+        sentences.push_back(
+            words_of(one, !r.sampling.modes.empty(), r.sampling.has_several_rules()));
       return sentences;
     }
 
@@ -190,7 +227,7 @@ namespace plumbline::report
       Part part{"samples",
                 "Samples of " + one.of.method +
                     (one.of.problem.empty() ? "" : ", " + one.of.problem) + ", " + one.of.series +
-                    ", h = " + rounded(one.of.h),
+                    ", h = " + rounded(one.of.h) + by_rule(r, r.sampling.rules.front()),
                 "",
                 sampling_samples_table(r, one, most_rows, most_variables),
                 true,
@@ -222,7 +259,7 @@ namespace plumbline::report
       constexpr std::size_t most_of_rule = 4;
       View view{"Samples"};
       view.answer = verdict(r, faults);
-      view.facts = {base::word(r.sampling.rule), counted(r.n_samples, "sample")};
+      view.facts = {r.sampling.rule_words(), counted(r.n_samples, "sample")};
       if (r.n_expected > 0)
         view.facts.emplace_back(faults.empty() ? "✓ as expected" : "✗ not as expected");
       view.constants = short_lines(rule_words(r), most_of_rule);

@@ -39,6 +39,11 @@ namespace plumbline::report
       return results.sampling.modes.empty() ? empty_cell() : count_cell(n_modes);
     }
 
+    Cell rule_cell(const SamplingResults &results, uq::SampleRule rule)
+    {
+      return known(results.sampling.has_several_rules(), text_cell(base::word(rule)));
+    }
+
     /// Found, and its bound: two CSV fields.
     Cell lebesgue_cell(const SetStatistics &set)
     {
@@ -82,6 +87,7 @@ namespace plumbline::report
                      "problem",
                      "series",
                      "h",
+                     "rule",
                      "modes",
                      "count",
                      "samples",
@@ -99,12 +105,12 @@ namespace plumbline::report
       for (const SetStatistics &set : one.sets)
       {
         std::vector<Cell> row = names(one);
-        const bool is_random = results.sampling.rule == uq::SampleRule::monte_carlo;
+        const bool is_random = set.rule == uq::SampleRule::monte_carlo;
         const bool has_field =
             set.deviation_size || set.negative_part > 0; // else spectra are sampled
         for (const Cell &cell :
-             {modes_cell(results, set.n_modes), count_cell(set.count), count_cell(set.n_samples),
-              known(set.n_missing > 0, count_cell(set.n_missing)),
+             {rule_cell(results, set.rule), modes_cell(results, set.n_modes), count_cell(set.count),
+              count_cell(set.n_samples), known(set.n_missing > 0, count_cell(set.n_missing)),
               known(has_field, number_cell(set.mean_size)),
               set.deviation_size ? number_cell(*set.deviation_size) : empty_cell(),
               known_error(set.mean_error), known_error(set.deviation_error),
@@ -125,6 +131,7 @@ namespace plumbline::report
                      "series",
                      "h",
                      "quantity",
+                     "rule",
                      "modes",
                      "count",
                      "samples",
@@ -143,10 +150,10 @@ namespace plumbline::report
             continue;
           std::vector<Cell> row = names(one);
           for (const Cell &cell :
-               {text_cell(name), modes_cell(results, set.n_modes), count_cell(set.count),
-                count_cell(set.n_samples), number_cell(s.mean), deviation_cell(s),
-                known(s.standard_error > 0, error_cell(s.standard_error)), interval_cell(s),
-                number_cell(s.least), number_cell(s.largest)})
+               {text_cell(name), rule_cell(results, set.rule), modes_cell(results, set.n_modes),
+                count_cell(set.count), count_cell(set.n_samples), number_cell(s.mean),
+                deviation_cell(s), known(s.standard_error > 0, error_cell(s.standard_error)),
+                interval_cell(s), number_cell(s.least), number_cell(s.largest)})
             row.push_back(cell);
           table.rows.push_back(std::move(row));
         }
@@ -162,6 +169,7 @@ namespace plumbline::report
                      "problem",
                      "series",
                      "h",
+                     "rule",
                      "modes",
                      "count",
                      "error",
@@ -169,7 +177,7 @@ namespace plumbline::report
     for (const study::CheapestPair &pair : r.cheapest)
       table.rows.push_back({text_cell(short_power(pair.target)), text_cell(pair.method),
                             known(!pair.problem.empty(), text_cell(pair.problem)),
-                            text_cell(pair.series), number_cell(pair.h),
+                            text_cell(pair.series), number_cell(pair.h), rule_cell(r, pair.rule),
                             modes_cell(r, pair.n_modes), count_cell(pair.count),
                             error_cell(pair.error), number_cell(pair.seconds)});
     return without_empty_columns(table);

@@ -45,7 +45,7 @@ namespace plumbline::scene
                 "Study/values must be finite and strictly increasing; " +
                     short_number(study.values[i]) + " does not");
       require(!scene.sampling.is_there(),
-              regime + " with Sampling/rule = " + base::word(scene.sampling.rule) +
+              regime + " with Sampling/rule = " + scene.sampling.rule_words() +
                   ": both vary variables; write Sampling/rule = none, or another regime");
       require(!scene.crack.is_there() && !scene.fracture.is_there() && !scene.strip.is_there(),
               regime +

@@ -43,8 +43,8 @@ namespace plumbline::scene
       std::string words_;
     };
 
-    /// Numbers separated by ','. deal.II accepts a trailing ',', which is likely an error.
-    class Numbers : public InWords<Patterns::List>
+    /// Numbers or words separated by ','. deal.II accepts a trailing ',', which is likely an error.
+    class CommaList : public InWords<Patterns::List>
     {
     public:
       using InWords<Patterns::List>::InWords;
@@ -56,7 +56,7 @@ namespace plumbline::scene
       }
       std::unique_ptr<PatternBase> clone() const override
       {
-        return std::make_unique<Numbers>(*this);
+        return std::make_unique<CommaList>(*this);
       }
     };
 
@@ -100,7 +100,7 @@ namespace plumbline::scene
 
     Patterns::List polyline(unsigned int most_points)
     {
-      const Numbers point("'x, y'", Patterns::Double(), 2, 2, ",");
+      const CommaList point("'x, y'", Patterns::Double(), 2, 2, ",");
       return {point, 2, most_points, ":"};
     }
 
@@ -144,10 +144,17 @@ namespace plumbline::scene
       return dynamic_cast<const Patterns::List *>(&allowed) != nullptr;
     }
 
+    /// The words of a key that takes one of them, or a list of some.
+    const Choice *choice_of(const Patterns::PatternBase &allowed)
+    {
+      const auto *list = dynamic_cast<const CommaList *>(&allowed);
+      return dynamic_cast<const Choice *>(list == nullptr ? &allowed : &list->get_base_pattern());
+    }
+
     /// A word of a choice that the text may stand for.
     std::string word_hint(const std::string &text, const Patterns::PatternBase &allowed)
     {
-      const auto *choice = dynamic_cast<const Choice *>(&allowed);
+      const Choice *const choice = choice_of(allowed);
       return choice == nullptr ? "" : base::did_you_mean(text, choice->words());
     }
 
@@ -202,21 +209,31 @@ namespace plumbline::scene
       return base::to_text(value, n_digits);
     }
 
+    /// A list separated by ',' whose parts are changed.
+    std::string changed_parts(const std::string &text,
+                              const std::function<std::string(const std::string &)> &changed)
+    {
+      std::vector<std::string> parts = physics::split_outside_brackets(text, ',');
+      std::transform(parts.begin(), parts.end(), parts.begin(), changed);
+      return join(parts, ", ");
+    }
+
     /// A value as its key is to have it: words as they are declared, numbers without fractions.
     std::string normalised(const std::string &text, const Patterns::PatternBase &allowed)
     {
       if (const auto *choice = dynamic_cast<const Choice *>(&allowed))
         return choice->declared(text);
-      if (allowed.match(text) || text.find('/') == std::string::npos)
+      const Choice *const words = choice_of(allowed); // of a list
+      if (allowed.match(text) || (words == nullptr && text.find('/') == std::string::npos))
         return text;
       if (dynamic_cast<const Patterns::Double *>(&allowed) != nullptr)
         return without_fraction(text);
-      if (dynamic_cast<const Numbers *>(&allowed) == nullptr)
+      if (dynamic_cast<const CommaList *>(&allowed) == nullptr)
         return text;
-      std::vector<std::string> parts = dealii::Utilities::split_string_list(text, ",");
-      std::transform(parts.begin(), parts.end(), parts.begin(), without_fraction);
-      const std::string decimals = join(parts, ", ");
-      return allowed.match(decimals) ? decimals : text; // the message has the text that was given
+      const std::string changed = changed_parts(
+          text, [&](const std::string &part)
+          { return words == nullptr ? without_fraction(part) : words->declared(part); });
+      return allowed.match(changed) ? changed : text; // the message has the text that was given
     }
   } // namespace
 
@@ -233,6 +250,12 @@ namespace plumbline::scene
   Allowed one_of(const std::vector<std::string> &words)
   {
     return std::make_shared<Choice>(words);
+  }
+
+  Allowed some_of(const std::vector<std::string> &words)
+  {
+    return std::make_shared<CommaList>("one or more of " + join(words, ", ") + ", separated by ','",
+                                       Choice(words), 1, any_length, ",");
   }
 
   Allowed count(int lowest, int highest)
@@ -261,14 +284,14 @@ namespace plumbline::scene
 
   Allowed numbers()
   {
-    return std::make_shared<Numbers>("numbers such as 0.05 or 1e-3, separated by ','",
-                                     Patterns::Double(), 0, any_length, ",");
+    return std::make_shared<CommaList>("numbers such as 0.05 or 1e-3, separated by ','",
+                                       Patterns::Double(), 0, any_length, ",");
   }
 
   Allowed positive_numbers()
   {
-    return std::make_shared<Numbers>("numbers above 0 such as 0.05 or 1e-3, separated by ','",
-                                     Patterns::Double(least_positive), 0, any_length, ",");
+    return std::make_shared<CommaList>("numbers above 0 such as 0.05 or 1e-3, separated by ','",
+                                       Patterns::Double(least_positive), 0, any_length, ",");
   }
 
   Allowed boxes()
@@ -518,7 +541,7 @@ namespace plumbline::scene
                        (corners.empty()
                             ? comma_hint(value, is_list(*key.allowed) ? Comma::after_0 : Comma::any)
                             : corners) +
-                       word_hint(value, *key.allowed));
+                       word_hint(bad, *key.allowed));
     key.value = value;
     key.is_given = true;
     enter(key.section);

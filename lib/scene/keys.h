@@ -30,6 +30,7 @@ namespace plumbline::scene
   Allowed any_text();
   Allowed yes_or_no();
   Allowed one_of(const std::vector<std::string> &words);
+  Allowed some_of(const std::vector<std::string> &words); ///< one or more, separated by ','
   Allowed count(int lowest, int highest = std::numeric_limits<int>::max());
   Allowed any_number();
   Allowed positive();

@@ -93,19 +93,31 @@ namespace plumbline::scene
   /// Where a random scene is taken by `plumbline sample`.
   struct SamplingSection
   {
-    uq::SampleRule rule = uq::SampleRule::none;
+    std::vector<uq::SampleRule> rules; ///< to be compared, the leading one first; empty: none
     SampledAnalysis analysis = SampledAnalysis::of_scene;
-    /// Of each set of samples: points a variable (tensor), level (Smolyak), or samples.
-    std::vector<unsigned int> counts;
+    /// Of each rule, or of all alike, of each set of samples: points a variable (tensor), level
+    /// (Smolyak), or samples.
+    std::vector<std::vector<unsigned int>> counts;
     /// How many modes of the field vary, few to many, each with every count; empty: all.
     std::vector<unsigned int> modes;
     uq::Growth growth = uq::Growth::odd;
     unsigned int seed = 1;
 
-    bool is_there() const { return rule != uq::SampleRule::none; }
+    bool is_there() const { return !rules.empty(); }
+    bool has_several_rules() const { return rules.size() > 1; }
+    std::string rule_words() const; ///< as Sampling/rule has them
+
+    /// Of the rule at a place in the list.
+    const std::vector<unsigned int> &counts_of(std::size_t rule) const
+    {
+      return counts[counts.size() == 1 ? 0 : rule];
+    }
 
     /// Nothing is by chance: variables are parameters of a study.
-    bool is_axis() const { return rule == uq::SampleRule::equidistant; }
+    bool is_axis() const
+    {
+      return rules.size() == 1 && rules.front() == uq::SampleRule::equidistant;
+    }
 
     void declare(Keys &keys);
   };

@@ -18,7 +18,8 @@ namespace plumbline::study
     {
       const auto is_below = [&](const SetStatistics &other)
       {
-        return other.count < set.count || other.n_modes < set.n_modes || other.is_target ||
+        return other.rule != set.rule || other.count < set.count || other.n_modes < set.n_modes ||
+               other.is_target ||
                (other.mean_error && *other.mean_error <= target * other.mean_size);
       };
       return std::all_of(cases.begin(), cases.end(),
@@ -36,13 +37,13 @@ namespace plumbline::study
     {
       double largest = 0;
       for (const SetStatistics &other : one.sets)
-        if (other.count >= set.count && other.n_modes >= set.n_modes && !other.is_target &&
-            other.mean_error)
+        if (other.rule == set.rule && other.count >= set.count && other.n_modes >= set.n_modes &&
+            !other.is_target && other.mean_error)
           largest = std::max(largest, *other.mean_error);
       return largest;
     }
 
-    /// Of pairs of one problem and series that are as cheap as the cheapest, the simplest.
+    /// Of pairs of one problem, series and rule that are as cheap as the cheapest, the simplest.
     CheapestPair simplest(const std::vector<CheapestPair> &pairs)
     {
       const auto least = std::min_element(pairs.begin(), pairs.end(),
@@ -66,13 +67,13 @@ namespace plumbline::study
     for (unsigned int k = 1; k <= n_targets; ++k)
     {
       const double target = std::pow(10., -static_cast<double>(k));
-      std::map<std::string, std::vector<CheapestPair>> pairs; // by problem and series
+      std::map<std::string, std::vector<CheapestPair>> pairs; // by problem, series and rule
       for (const CaseStatistics &one : cases)
         for (const SetStatistics &set : one.sets)
           if (set.mean_error && !one.is_target_level && stays_below(target, cases, one, set))
-            pairs[one.of.problem + "\n" + one.of.series].push_back(
+            pairs[one.of.problem + "\n" + one.of.series + "\n" + base::word(set.rule)].push_back(
                 {one.of.method, one.of.problem, one.of.series, target, error_from(one, set),
-                 one.of.h, set.seconds, set.count, set.n_modes});
+                 one.of.h, set.seconds, set.count, set.n_modes, set.rule});
       for (const auto &[key, known] : pairs)
         result.push_back(simplest(known));
     }

@@ -21,7 +21,7 @@ namespace plumbline::study
       if (!is_bounded || set.n_modes != scene.random.n_modes || set.samples.size() > most_samples ||
           laws.empty())
         return {};
-      switch (scene.sampling.rule)
+      switch (set.rule)
       {
       case uq::SampleRule::tensor:
         return uq::Interpolant::tensor(laws, set.count);
@@ -34,7 +34,8 @@ namespace plumbline::study
       }
     }
 
-    /// Some of the samples of the last set that are not in a set, from its first to its last.
+    /// Some of the samples of the last set of its rule that are not in a set, from its first to its
+    /// last.
     std::vector<std::size_t> others(const SampleSet &last, const SampleSet &set)
     {
       std::vector<std::size_t> all;
@@ -83,7 +84,7 @@ namespace plumbline::study
           samples.push_back(found->second);
       if (samples.size() < of->points().size()) // some have no weight, and were not solved at
         continue;
-      const std::vector<std::size_t> points = others(plan.sets.back(), plan.sets[s]);
+      const std::vector<std::size_t> points = others(plan.sets[plan.last_like(s)], plan.sets[s]);
       set.n_points = points.size();
       for (std::size_t p = 0; p < points.size(); ++p)
       {

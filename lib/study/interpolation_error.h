@@ -8,8 +8,8 @@ namespace plumbline::study
 {
   /// How far the interpolants u^Q of sets are from the solutions at other values of the variables:
   /// max over ξ of ‖u(ξ) - u^Q(ξ)‖, L2 over Ω (Fan et al. 2022, doi:10.1016/j.cma.2022.115340,
-  /// theorem 4, with that norm). The solutions are those of the last set, at most 32 of its samples
-  /// that are not in the set: no further solves, and a lower bound on the maximum. For
+  /// theorem 4, with that norm). The solutions are those of the last set of its rule, at most 32 of
+  /// its samples that are not in the set: no further solves, and a lower bound on the maximum. For
   /// uniform variables only: if one is unbounded, sets extrapolate to the outer samples of the last
   /// set, and there is no maximum.
   class InterpolationError

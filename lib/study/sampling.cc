@@ -5,6 +5,7 @@
 #include "study/cheapest_pair.h"
 #include "study/exact_statistics.h"
 #include "study/interpolation_error.h"
+#include "study/rule_comparison.h"
 #include "study/sampling_balance.h"
 #include "study/sampling_findings.h"
 
@@ -43,7 +44,7 @@ namespace plumbline::study
       Record first;
       std::vector<SetSums> sets;
       InterpolationError::Sums interpolation;
-      // of the last set, see CaseStatistics
+      // of the leading set, see CaseStatistics
       std::vector<std::size_t> samples = {};
       std::map<std::string, std::vector<std::optional<double>>> values = {};
 
@@ -72,9 +73,10 @@ namespace plumbline::study
       return weights;
     }
 
-    /// @param sample  whose records they are
+    /// @param sample   whose records they are
+    /// @param leading  set
     void add(std::size_t sample, const Records &records,
-             const std::vector<std::optional<double>> &weights,
+             const std::vector<std::optional<double>> &weights, std::size_t leading,
              const InterpolationError &interpolation, std::vector<CaseSums> &cases)
     {
       for (const Record &one : records)
@@ -105,7 +107,7 @@ namespace plumbline::study
           if (!field.empty())
             set.field.add(field, *weights[s]);
         }
-        if (weights.back())
+        if (weights[leading])
           found->add_row(sample, one.scalars);
       }
     }
@@ -154,14 +156,16 @@ namespace plumbline::study
     }
 
     /// A rule that lacks points says nothing; independent samples do without some.
-    bool says_something(const SampleSet &set, const SetSums &sums, bool independent)
+    bool says_something(const SampleSet &set, const SetSums &sums)
     {
-      return !sums.weights.empty() && (independent || sums.weights.size() == set.samples.size());
+      return !sums.weights.empty() &&
+             (set.is_independent() || sums.weights.size() == set.samples.size());
     }
 
-    SetStatistics conclude_set(const SampleSet &set, const SetSums &sums, bool independent)
+    SetStatistics conclude_set(const SampleSet &set, const SetSums &sums)
     {
       SetStatistics result;
+      result.rule = set.rule;
       result.count = set.count;
       result.n_modes = set.n_modes;
       result.n_samples = sums.weights.size();
@@ -169,24 +173,26 @@ namespace plumbline::study
       result.sum_of_sizes = set.sum_of_sizes;
       result.noise = set.noise;
       result.seconds = sums.seconds;
-      if (!says_something(set, sums, independent))
+      if (!says_something(set, sums))
         return result;
       const std::vector<double> weights = normalised(sums.weights);
       for (const auto &[name, values] : sums.values)
         if (values.size() == weights.size())
-          result.quantities[name] = uq::statistics(values, weights, independent);
+          result.quantities[name] = uq::statistics(values, weights, set.is_independent());
       return result;
     }
 
-    /// Of the last set at the finest level, at the places of another one; nothing where samples of
-    /// it are missing.
+    /// Of the leading set at the finest level, at the places of another one; nothing where samples
+    /// of it are missing.
     std::optional<ExactStatistics> own_statistics(const SamplingPlan &plan, const CaseSums &finest,
                                                   const PointField &places)
     {
-      const SetSums &sums = finest.sets.back();
-      if (!says_something(plan.sets.back(), sums, plan.are_independent))
+      const std::size_t leading = plan.last_like(0);
+      const SampleSet &set = plan.sets[leading];
+      const SetSums &sums = finest.sets[leading];
+      if (!says_something(set, sums))
         return {};
-      const std::size_t n_independent = plan.are_independent ? sums.weights.size() : 0;
+      const std::size_t n_independent = set.is_independent() ? sums.weights.size() : 0;
       const std::vector<double> variance = sums.field.variance(n_independent);
       const bool has_deviation =
           std::all_of(variance.begin(), variance.end(), [](double one) { return one >= 0; });
@@ -194,6 +200,18 @@ namespace plumbline::study
                                                        ? sums.field.deviation(n_independent)
                                                        : std::vector<double>()};
       return at_places(own, sampled_field(finest.first), places);
+    }
+
+    /// Quantities that some samples of a set lack.
+    void find_partial_quantities(const CaseSums &sums, const SampleSet &of, const SetSums &set,
+                                 bool has_several_rules, std::vector<std::string> &findings)
+    {
+      for (const auto &[name, values] : set.values)
+        if (const std::size_t n = set.weights.size(); values.size() < n)
+          findings.push_back(name + " of " + sums.first.key.method + " is available for " +
+                             std::to_string(values.size()) + " of " + std::to_string(n) +
+                             " samples" + (has_several_rules ? " of " + base::word(of.rule) : "") +
+                             ", so that it has no statistics");
     }
 
     CaseStatistics conclude_case(const scene::Scene &scene, const SamplingPlan &plan,
@@ -219,19 +237,16 @@ namespace plumbline::study
       {
         findings.push_back(std::string("errors of means are not known: ") + error.what());
       }
-      if (!sums.sets.empty())
-        for (const auto &[name, values] : sums.sets.back().values)
-          if (const std::size_t n = sums.sets.back().weights.size(); values.size() < n)
-            findings.push_back(name + " of " + result.of.method + " is available for " +
-                               std::to_string(values.size()) + " of " + std::to_string(n) +
-                               " samples, so that it has no statistics");
       for (std::size_t s = 0; s < plan.sets.size(); ++s)
       {
-        SetStatistics set = conclude_set(plan.sets[s], sums.sets[s], plan.are_independent);
-        const bool is_known = says_something(plan.sets[s], sums.sets[s], plan.are_independent) &&
-                              !places.values.empty();
+        const SampleSet &of = plan.sets[s];
+        if (plan.last_like(s) == s)
+          find_partial_quantities(sums, of, sums.sets[s], scene.sampling.has_several_rules(),
+                                  findings);
+        SetStatistics set = conclude_set(of, sums.sets[s]);
+        const bool is_known = says_something(of, sums.sets[s]) && !places.values.empty();
         FieldStatistics field;
-        const bool is_best = is_finest && s + 1 == plan.sets.size();
+        const bool is_best = is_finest && s == plan.last_like(0);
         set.is_target = is_best && is_own;
         set.interpolation_error = sums.interpolation.largest(s, places);
         if (const auto found = interpolation.lebesgue(s))
@@ -240,7 +255,7 @@ namespace plumbline::study
           set.lebesgue_bound = found->bound;
         }
         if (is_known)
-          conclude_field(sums.sets[s], places, plan.are_independent,
+          conclude_field(sums.sets[s], places, of.is_independent(),
                          set.is_target ? std::nullopt : exact, set, field.mean, field.deviation);
         if (is_known && is_best)
         {
@@ -310,7 +325,7 @@ namespace plumbline::study
       if (!records->empty() && !records->front().failure.empty())
         results.failures.push_back({i, plan.values[i], records->front().failure});
       else
-        add(i, *records, weights[i], interpolation, cases);
+        add(i, *records, weights[i], plan.last_like(0), interpolation, cases);
     }
     results.is_complete = n_read == plan.values.size();
     for (const CaseSums &one : cases)
@@ -327,6 +342,7 @@ namespace plumbline::study
     {
       results.cheapest = find_cheapest(results.cases);
       results.balance = find_balance(results.cases);
+      results.comparisons = compare_rules(results.cases);
     }
     for (const std::string &finding : find_findings(results))
       results.findings.push_back(finding);
@@ -339,14 +355,37 @@ namespace plumbline::study
     return results;
   }
 
+  const SetStatistics *CaseStatistics::last_of(uq::SampleRule rule) const
+  {
+    const SetStatistics *last = nullptr;
+    for (const SetStatistics &set : sets)
+      if (set.rule == rule)
+        last = &set;
+    return last;
+  }
+
+  const SetStatistics *CaseStatistics::leading() const
+  {
+    return sets.empty() ? nullptr : last_of(sets.front().rule);
+  }
+
   std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name)
   {
+    for (const SetStatistics &other : one.sets)
+      if (const std::string end = " by " + base::word(other.rule);
+          name.size() > end.size() && name.substr(name.size() - end.size()) == end)
+      {
+        CaseStatistics of_rule;
+        std::copy_if(one.sets.begin(), one.sets.end(), std::back_inserter(of_rule.sets),
+                     [&](const SetStatistics &set) { return set.rule == other.rule; });
+        return sampled_quantity(of_rule, name.substr(0, name.size() - end.size()));
+      }
     if (one.sets.empty())
       return {};
-    const SetStatistics &set = one.sets.back();
+    const SetStatistics &set = *one.leading();
     std::optional<double> of_interpolant; // of the last set that another one is held against
     for (const SetStatistics &other : one.sets)
-      if (other.interpolation_error)
+      if (other.rule == set.rule && other.interpolation_error)
         of_interpolant = other.interpolation_error;
     std::map<std::string, std::optional<double>> known = {
         {"error of the mean", set.mean_error},

@@ -20,18 +20,26 @@ namespace plumbline::study
   /// Samples of one rule and count.
   struct SampleSet
   {
+    uq::SampleRule rule = uq::SampleRule::none;
     unsigned int count = 0, n_modes = 0; ///< see scene::SamplingSection
     std::vector<std::size_t> samples;    ///< into SamplingPlan::values
     std::vector<double> weights;
     double sum_of_sizes = 1, noise = 1; ///< see uq::SamplePoints
+
+    bool is_independent() const { return rule == uq::SampleRule::monte_carlo; }
   };
 
   /// All samples that sets take, each once.
   struct SamplingPlan
   {
     std::vector<std::vector<double>> values; ///< of the variables, shape (n_samples, n_variables)
-    std::vector<SampleSet> sets;             ///< few modes to many, of each few samples to many
-    bool are_independent = false;            ///< Monte Carlo
+    /// Rule by rule, of each few modes to many, of each few samples to many.
+    std::vector<SampleSet> sets;
+
+    /// The last set of the rule that a set is of; of the first rule it is the leading set: pictures
+    /// and tables of samples show it, and the target own finest level is its.
+    /// @pre  set < sets.size()
+    std::size_t last_like(std::size_t set) const;
 
     /// The scene at a sample; of fields that are drawn whole the realisation of its number.
     scene::Scene at(const scene::Scene &scene, std::size_t sample) const;
@@ -44,6 +52,7 @@ namespace plumbline::study
   /// Of a case over one set.
   struct SetStatistics
   {
+    uq::SampleRule rule = uq::SampleRule::none;
     unsigned int count = 0, n_modes = 0;
     std::size_t n_samples = 0; ///< that there are
     std::size_t n_missing = 0; ///< that failed: independent samples do without, rules say nothing
@@ -55,9 +64,9 @@ namespace plumbline::study
     std::optional<double> deviation_size; ///< nothing where a variance is negative: it has no root
     double negative_part = 0;             ///< of Ω, where it is
     double standard_error = 0;            ///< of the mean of independent samples
-    /// Against the exact field's, or, with the target own finest level, the last set's there, whose
-    /// deviations of averages over smaller cells are averaged. Of deviations none where a variance
-    /// is negative, of this set or of the one that it is held against.
+    /// Against the exact field's, or, with the target own finest level, the leading set's there,
+    /// whose deviations of averages over smaller cells are averaged. Of deviations none where a
+    /// variance is negative, of this set or of the one that it is held against.
     std::optional<double> mean_error, deviation_error;
     bool is_target = false; ///< this is that set, which has no errors
     // of the set's interpolant u^Q, see interpolation_error.h
@@ -66,7 +75,7 @@ namespace plumbline::study
     double mean_uncertainty = 0, deviation_uncertainty = 0; ///< of what these are held against
   };
 
-  /// Mean and deviation of the largest set's field, for pictures.
+  /// Mean and deviation of the leading set's field, for pictures.
   struct FieldStatistics
   {
     analysis::PointField places;         ///< without values
@@ -81,9 +90,13 @@ namespace plumbline::study
     bool is_target_level = false;
     std::vector<SetStatistics> sets;
     std::optional<FieldStatistics> field; ///< of the finest level
-    std::vector<std::size_t> samples;     ///< of the largest set, those that there are
+    std::vector<std::size_t> samples;     ///< of the leading set, those that there are
     /// Of each quantity for these, or nothing where one has none.
     std::map<std::string, std::vector<std::optional<double>>> values;
+
+    /// The last set of a rule, or nothing where none is of it; of the first rule the leading set.
+    const SetStatistics *last_of(uq::SampleRule rule) const;
+    const SetStatistics *leading() const;
   };
 
   struct SampleFailure
@@ -95,12 +108,14 @@ namespace plumbline::study
 
   /// The pair of level and set that most cheaply brings the error of the mean below a target and
   /// keeps it there: with more samples and modes, and at finer levels. Of pairs that are as cheap
-  /// (see cheapest.h) the one with fewer samples, then fewer modes, then the larger h.
+  /// (see cheapest.h) the one with fewer samples, then fewer modes, then the larger h. Of each
+  /// rule.
   struct CheapestPair
   {
     std::string method, problem, series;
     double target = 0, error = 0, h = 0, seconds = 0;
     unsigned int count = 0, n_modes = 0;
+    uq::SampleRule rule = uq::SampleRule::none;
   };
 
   /// Whether more samples lower the error of the mean of a method at a level.
@@ -113,6 +128,24 @@ namespace plumbline::study
     /// The least count from which on sets have an error within a tenth of that; nothing where only
     /// the largest has: samples still limit it.
     std::optional<unsigned int> enough;
+    uq::SampleRule rule = uq::SampleRule::none;
+  };
+
+  /// How many samples each rule needs for an error that all of them reach: the largest of the
+  /// errors of their last sets. Of a method at its finest level, with all modes.
+  struct RuleComparison
+  {
+    std::string method, problem, series;
+    double h = 0;         ///< [length]
+    std::string quantity; ///< that the error is of: mean, deviation
+    double error = 0;
+    struct Need
+    {
+      uq::SampleRule rule = uq::SampleRule::none;
+      /// Of the smallest set from which on errors exceed that one by a tenth at most.
+      std::size_t n_samples = 0;
+    };
+    std::vector<Need> needs; ///< few to many
   };
 
   struct SamplingResults
@@ -129,8 +162,9 @@ namespace plumbline::study
     std::vector<SampleFailure> failures;
     std::vector<CheapestPair> cheapest;
     std::vector<SamplingBalance> balance;
-    std::vector<std::string> findings; ///< sentences for the report
-    std::size_t n_expected = 0;        ///< lines of Expected/sampling
+    std::vector<RuleComparison> comparisons; ///< where there are several rules
+    std::vector<std::string> findings;       ///< sentences for the report
+    std::size_t n_expected = 0;              ///< lines of Expected/sampling
     bool is_complete = false;
   };
 
@@ -146,8 +180,8 @@ namespace plumbline::study
   std::vector<std::string> sampling_faults(const SamplingResults &results,
                                            const scene::ExpectedSection &expected);
 
-  /// What is known of a case over its largest set by the name that tables give it: "error of the
-  /// mean", "size of the mean" (L2, and so on), "mean of ...", "deviation of ..."; nothing where it
-  /// is not.
+  /// What is known of a case over its leading set by the name that tables give it: "error of the
+  /// mean", "size of the mean" (L2, and so on), "mean of ...", "deviation of ..."; "error of the
+  /// mean by Monte Carlo", over the last set of that rule; nothing where it is not.
   std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name);
 } // namespace plumbline::study

@@ -21,7 +21,8 @@ namespace plumbline::study
     {
       const SetStatistics &largest = *sets.back();
       SamplingBalance balance{of.method,       of.problem,    of.series,           of.h,
-                              largest.n_modes, largest.count, *largest.mean_error, {}};
+                              largest.n_modes, largest.count, *largest.mean_error, {},
+                              largest.rule};
       // from the largest down: what is as good by chance does not count
       for (std::size_t s = sets.size() - 1; s-- > 0 && is_as_good(*sets[s], largest);)
         balance.enough = sets[s]->count;
@@ -36,24 +37,26 @@ namespace plumbline::study
     {
       if (one.is_target_level)
         continue;
-      std::map<unsigned int, std::vector<const SetStatistics *>> sets; // by modes
+      std::map<std::pair<uq::SampleRule, unsigned int>, std::vector<const SetStatistics *>> sets;
       for (const SetStatistics &set : one.sets)
         if (set.mean_error)
-          sets[set.n_modes].push_back(&set);
-      for (const auto &[n_modes, known] : sets)
+          sets[{set.rule, set.n_modes}].push_back(&set);
+      for (const auto &[rule_and_modes, known] : sets)
         if (known.size() > 1)
           result.push_back(balance_of(one.of, known));
     }
     return result;
   }
 
-  std::string words_of(const SamplingBalance &balance, bool has_modes)
+  std::string words_of(const SamplingBalance &balance, bool has_modes, bool has_rules)
   {
     std::string text = balance.method;
     for (const std::string &name : {balance.problem, balance.series})
       if (!name.empty())
         text += ", " + name;
     text += ", h = " + base::to_text(balance.h, 4);
+    if (has_rules)
+      text += ", " + base::word(balance.rule);
     if (has_modes)
       text += ", modes " + std::to_string(balance.n_modes);
     const std::string error = base::to_text(balance.error, 3),

@@ -22,6 +22,7 @@ namespace plumbline::study
       {
         const std::string where =
             one.of.method + ", h = " + base::to_text(one.of.h, 4) +
+            (results.sampling.has_several_rules() ? ", " + base::word(set.rule) : "") +
             (results.sampling.modes.empty() ? "" : ", modes " + std::to_string(set.n_modes)) +
             ", count " + std::to_string(set.count) + ": ";
         for (const auto &[name, statistics] : set.quantities)

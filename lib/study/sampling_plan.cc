@@ -7,10 +7,10 @@ namespace plumbline::study
 
   namespace
   {
-    SamplePoints draw(const scene::SamplingSection &sampling, const std::vector<uq::Law> &laws,
-                      unsigned int count)
+    SamplePoints draw(SampleRule rule, const scene::SamplingSection &sampling,
+                      const std::vector<uq::Law> &laws, unsigned int count)
     {
-      switch (sampling.rule)
+      switch (rule)
       {
       case SampleRule::tensor:
         return uq::tensor_points(laws, count);
@@ -30,20 +30,24 @@ namespace plumbline::study
     /// Samples that several sets share are taken once.
     using Known = std::map<std::vector<double>, std::size_t>;
 
-    /// A set of each count, all modes beyond n_modes being 0.
-    void add_sets(const scene::Scene &scene, unsigned int n_modes, Known &known, SamplingPlan &plan)
+    /// A set of each count of a rule, all modes beyond n_modes being 0.
+    /// @param of  its place among the rules
+    void add_sets(const scene::Scene &scene, std::size_t of, unsigned int n_modes, Known &known,
+                  SamplingPlan &plan)
     {
       const scene::SamplingSection &sampling = scene.sampling;
+      const SampleRule rule = sampling.rules[of];
       const scene::RandomSection &random = scene.random;
       const std::vector<uq::Law> laws = random.laws(),
                                  varying(laws.begin(), laws.end() - random.n_modes + n_modes);
       const bool is_sequence =
-          plan.are_independent || sampling.rule == SampleRule::quasi_monte_carlo;
+          rule == SampleRule::monte_carlo || rule == SampleRule::quasi_monte_carlo;
       const std::size_t first = plan.values.size(); // of a sequence
-      for (const unsigned int count : sampling.counts)
+      for (const unsigned int count : sampling.counts_of(of))
       {
-        const SamplePoints points = draw(sampling, varying, count);
-        SampleSet set{count, n_modes, {}, points.weights, points.sum_of_sizes(), points.noise()};
+        const SamplePoints points = draw(rule, sampling, varying, count);
+        SampleSet set{rule,          count, n_modes, {}, points.weights, points.sum_of_sizes(),
+                      points.noise()};
         for (std::size_t i = 0; i < points.points.size(); ++i)
         {
           std::vector<double> values = points.points[i];
@@ -68,15 +72,24 @@ namespace plumbline::study
     return at_sample(scene, values[sample], static_cast<unsigned int>(sample) + 1);
   }
 
+  std::size_t SamplingPlan::last_like(std::size_t set) const
+  {
+    std::size_t last = set;
+    while (last + 1 < sets.size() && sets[last + 1].rule == sets[set].rule)
+      ++last;
+    return last;
+  }
+
   SamplingPlan make_sampling_plan(const scene::Scene &scene)
   {
+    std::vector<unsigned int> modes = scene.sampling.modes;
+    if (modes.empty())
+      modes = {scene.random.n_modes};
     SamplingPlan plan;
-    plan.are_independent = scene.sampling.rule == SampleRule::monte_carlo;
     Known known;
-    if (scene.sampling.modes.empty())
-      add_sets(scene, scene.random.n_modes, known, plan);
-    for (const unsigned int n_modes : scene.sampling.modes)
-      add_sets(scene, n_modes, known, plan);
+    for (std::size_t rule = 0; rule < scene.sampling.rules.size(); ++rule)
+      for (const unsigned int n_modes : modes)
+        add_sets(scene, rule, n_modes, known, plan);
     return plan;
   }
 } // namespace plumbline::study

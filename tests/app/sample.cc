@@ -257,6 +257,42 @@ TEST(SampleCommand, lets_a_growth_that_was_killed_go_on_from_its_checkpoint_to_t
     fs::remove_all(folder);
 }
 
+TEST(SampleCommand, compares_rules_with_the_numbers_of_each_alone)
+{
+  const fs::path both = temporary("sample_both"), sparse = temporary("sample_sparse"),
+                 drawn = temporary("sample_drawn");
+  const auto command =
+      [](const std::string &rule, const std::string &counts, const fs::path &folder)
+  {
+    return smooth() + " --set 'Sampling/rule=" + rule + "' --set 'Sampling/counts=" + counts +
+           "' -o " + folder.string();
+  };
+  const std::string together = command("Smolyak, Monte Carlo", "0, 1; 4, 8", both);
+  ASSERT_EQ(run(together + " --jobs 2").exit_code, 0);
+  ASSERT_EQ(run(command("Smolyak", "0, 1", sparse)).exit_code, 0);
+  ASSERT_EQ(run(command("Monte Carlo", "4, 8", drawn)).exit_code, 0);
+  const Json json = results(both), sets = json["cases"][0]["sets"];
+  EXPECT_EQ(json["n_samples"], 3 + 8);
+  Json alone = results(sparse)["cases"][0]["sets"];
+  for (const Json &set : results(drawn)["cases"][0]["sets"])
+    alone.push_back(set);
+  EXPECT_EQ(sets, alone); // to the last bit
+  const std::string page = read(both / "sample.html");
+  for (const char *const text : {"h = 0.125, Smolyak", "h = 0.125, Monte Carlo",
+                                 "needs the fewest samples for an error of the mean"})
+    expect_found(page, text);
+  // what is there is not taken again
+  fs::remove(both / "samples/000009.jsonl");
+  const auto kept = fs::last_write_time(both / "samples/000002.jsonl");
+  const Outcome again = run(together);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  expect_found(again.err, "continuing: 10 samples");
+  EXPECT_EQ(fs::last_write_time(both / "samples/000002.jsonl"), kept);
+  EXPECT_EQ(results(both), json);
+  for (const fs::path &folder : {both, sparse, drawn})
+    fs::remove_all(folder);
+}
+
 TEST(SampleCommand, touches_no_files_that_are_not_its_own)
 {
   const fs::path folder = temporary("sample");
@@ -504,6 +540,7 @@ TEST(SampleCommand, a_scene_is_run_at_any_sample)
 TEST(SampleCommand, refuses_what_it_cannot_take)
 {
   expect_refused(smooth() + " --set Sampling/rule=none", "Sampling/rule = none");
+  expect_refused(smooth() + " --set Sampling/rule=tensor,tensor", "'tensor' occurs twice");
   expect_refused(smooth() + " --set Sampling/counts=2000000", "2e+06 samples, more than");
   expect_refused(smooth() + " --set Sampling/counts=100000", "1e+05 points of a variable");
   expect_refused(smooth() + " --set Sampling/rule=Smolyak --set Sampling/counts=1000000000",

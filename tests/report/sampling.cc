@@ -19,7 +19,7 @@ namespace plumbline::report
     {
       study::SamplingResults r;
       r.scene_name = "ellipses";
-      r.sampling.rule = uq::SampleRule::monte_carlo;
+      r.sampling.rules = {uq::SampleRule::monte_carlo};
       r.sampling.seed = 3;
       r.random.field = scene::FieldKind::ellipses;
       r.random.seed = 7;
@@ -59,7 +59,7 @@ namespace plumbline::report
     const std::string csv = to_csv(table);
     EXPECT_NE(csv.find(",mean from,mean to,"), std::string::npos) << csv;
     // none where samples are not independent
-    results.sampling.rule = uq::SampleRule::tensor;
+    results.sampling.rules = {uq::SampleRule::tensor};
     results.cases[0].sets[0].quantities["K by bonds"] =
         uq::statistics({1, 2, 3, 6}, {.25, .25, .25, .25}, false);
     EXPECT_TRUE(confidence().is_null());
@@ -164,7 +164,7 @@ namespace plumbline::report
     }
     results.cases = {one};
     const fixture::Folder folder;
-    results.sampling.rule = uq::SampleRule::tensor; // there is no histogram to draw
+    results.sampling.rules = {uq::SampleRule::tensor}; // there is no histogram to draw
     write_sampling(results, {}, folder.path());
     const std::string csv = fixture::read(folder.path() / "sample/samples_opt-m-3-0.25.csv");
     EXPECT_EQ(csv.substr(0, csv.find("4,2,")), "sample,a,mode 1,K\n0,0,-1,1000\n2,1,-1,\n"
@@ -217,7 +217,7 @@ namespace plumbline::report
     results.cases = {one};
     for (const auto rule : {uq::SampleRule::monte_carlo, uq::SampleRule::quasi_monte_carlo})
     {
-      results.sampling.rule = rule;
+      results.sampling.rules = {rule};
       const std::vector<DataChart> charts = sampling_charts(results);
       ASSERT_EQ(charts.size(), 1u);
       EXPECT_EQ(charts[0].name, "histogram-opt-0.25-k-by-bonds");
@@ -225,7 +225,7 @@ namespace plumbline::report
       EXPECT_EQ(to_csv(charts[0].data),
                 "from,to,samples\n0,1,3\n1,2,3\n2,3,1\n3,4,4\n4,5,1\n5,6,4\n");
     }
-    results.sampling.rule = uq::SampleRule::tensor; // whose weights differ
+    results.sampling.rules = {uq::SampleRule::tensor}; // whose weights differ
     EXPECT_TRUE(sampling_charts(results).empty());
   }
 
@@ -242,9 +242,9 @@ namespace plumbline::report
     one.values["nodal L2 | exact"] = {.75, .125, std::nullopt};
     one.values["K"] = {-1, 2, 3};
     results.cases = {one};
-    results.sampling.rule = uq::SampleRule::tensor;
+    results.sampling.rules = {uq::SampleRule::tensor};
     EXPECT_TRUE(sampling_charts(results).empty());
-    results.sampling.rule = uq::SampleRule::equidistant;
+    results.sampling.rules = {uq::SampleRule::equidistant};
     const std::vector<DataChart> charts = sampling_charts(results);
     ASSERT_EQ(charts.size(), 2u);
     EXPECT_EQ(charts[0].name, "over-nu-k");
@@ -264,6 +264,81 @@ namespace plumbline::report
     EXPECT_EQ(sampling_summary(results, "").find("noise"), std::string::npos);
     results.variables = {"nu", "a"}; // a chart has room for one
     EXPECT_TRUE(sampling_charts(results).empty());
+  }
+
+  TEST(SamplingReport, ComparesRulesOnOnePage)
+  {
+    study::SamplingResults results = sampled();
+    study::CaseStatistics one;
+    one.of.method = "OPT";
+    one.of.h = .25;
+    one.is_finest = true;
+    for (const auto rule : {uq::SampleRule::smolyak, uq::SampleRule::monte_carlo})
+      for (const unsigned int count : {1, 2})
+      {
+        study::SetStatistics set;
+        set.rule = rule;
+        set.count = count;
+        set.n_samples = rule == uq::SampleRule::smolyak ? 4 * count : 40 * count;
+        set.mean_error = 1. / static_cast<double>(set.n_samples);
+        set.deviation_size = set.seconds = 1;
+        set.standard_error = .5;
+        set.quantities["K"] = uq::statistics({1, 2}, {.5, .5}, false);
+        one.sets.push_back(set);
+      }
+    results.cases = {one};
+    const Table alone = sampling_field_table(results);
+    EXPECT_EQ(to_csv(alone).find("rule"), std::string::npos); // there is one
+    results.sampling.rules = {uq::SampleRule::smolyak, uq::SampleRule::monte_carlo};
+    results.comparisons = {{"OPT",
+                            "",
+                            "",
+                            .25,
+                            "mean",
+                            .125,
+                            {{uq::SampleRule::smolyak, 8}, {uq::SampleRule::monte_carlo, 40}}},
+                           {"OPT",
+                            "",
+                            "",
+                            .25,
+                            "deviation",
+                            .5,
+                            {{uq::SampleRule::smolyak, 4}, {uq::SampleRule::monte_carlo, 80}}}};
+    const std::vector<DataChart> charts = sampling_charts(results);
+    ASSERT_EQ(charts.size(), 1u); // one h, and one time
+    EXPECT_EQ(charts[0].name, "mean-samples");
+    ASSERT_EQ(charts[0].plot.lines.size(), 2u);
+    for (const auto &[i, label, first] :
+         {std::tuple{0, "h = 0.25, Smolyak", 4.}, std::tuple{1, "h = 0.25, Monte Carlo", 40.}})
+    {
+      EXPECT_EQ(charts[0].plot.lines[i].label, label);
+      ASSERT_EQ(charts[0].plot.lines[i].points.size(), 2u);
+      EXPECT_EQ(charts[0].plot.lines[i].points[0].x, first);
+    }
+    EXPECT_NE(to_csv(charts[0].data).find("value,rule\nOPT,0.25,0,4,1,0.25,Smolyak\n"),
+              std::string::npos)
+        << to_csv(charts[0].data);
+    for (const Table &table : {sampling_field_table(results), sampling_quantity_table(results)})
+    {
+      EXPECT_NE(to_csv(table).find(",rule,"), std::string::npos);
+      EXPECT_NE(to_csv(table).find(",Monte Carlo,"), std::string::npos);
+    }
+    const fixture::Folder folder;
+    write_sampling(results, {}, folder.path());
+    const std::string page = fixture::read(folder.path() / "sample.html");
+    for (const char *const text :
+         {"Sampling rules: Smolyak (growth odd), Monte Carlo (Sampling/seed = 3)",
+          "Weights w of the largest set by Smolyak", "Weights w of the largest set by Monte Carlo",
+          "h = 0.25: Smolyak needs the fewest samples for an error of the mean that all rules "
+          "reach, "
+          "0.125 (Smolyak 8, Monte Carlo 40 samples)",
+          "an error of the deviation that all rules reach, 0.5 (Smolyak 4, Monte Carlo 80 "
+          "samples)"})
+      EXPECT_NE(page.find(text), std::string::npos) << text;
+    const auto json = nlohmann::json::parse(sampling_json(results));
+    EXPECT_EQ(json["rule"], "Smolyak, Monte Carlo");
+    EXPECT_EQ(json["cases"][0]["sets"][2]["rule"], "Monte Carlo");
+    EXPECT_EQ(json["comparisons"][1]["samples"]["Monte Carlo"], 80);
   }
 
   TEST(SamplingReport, SummarisesIn25LinesOf120Columns)

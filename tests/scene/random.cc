@@ -426,6 +426,41 @@ TEST(RandomScene, IsRefusedWithTheRemedy)
                  "is the same everywhere");
 }
 
+TEST(RandomScene, SeveralRulesHaveTheirCounts)
+{
+  const scene::Scene scene = random_scene(
+      {{"Sampling/rule", "smolyak,Monte Carlo"}, {"Sampling/counts", "0, 1; 4, 16, 64"}});
+  EXPECT_EQ(scene.sampling.rules,
+            (std::vector<uq::SampleRule>{uq::SampleRule::smolyak, uq::SampleRule::monte_carlo}));
+  EXPECT_EQ(scene.sampling.rule_words(), "Smolyak, Monte Carlo");
+  EXPECT_EQ(scene.sampling.counts_of(0), (std::vector<unsigned int>{0, 1}));
+  EXPECT_EQ(scene.sampling.counts_of(1), (std::vector<unsigned int>{4, 16, 64}));
+  const scene::Scene of_all = random_scene({{"Sampling/rule", "Smolyak, tensor"}});
+  EXPECT_EQ(of_all.sampling.counts_of(0), of_all.sampling.counts_of(1));
+  // printed, it is the same
+  EXPECT_EQ(scene::parse_scene("printed", scene.text).sampling.rules, scene.sampling.rules);
+
+  const auto rules = [](const std::string &names, const std::string &counts = "2") {
+    return Settings{{"Sampling/rule", names}, {"Sampling/counts", counts}};
+  };
+  expect_refused(rules("Smolyak, tensr"),
+                 "'Smolyak, tensr' is not allowed, for 'tensr' in it; write one or more of none, "
+                 "tensor, Smolyak, Monte Carlo");
+  expect_refused(rules("Smolyak, tensr"), "did you mean tensor?");
+  expect_refused(rules("Smolyak,"), "is not allowed");
+  expect_refused(rules(""), "is not allowed");
+  expect_refused(rules("Smolyak, tensor, Smolyak"), "'Smolyak' occurs twice; give each rule once");
+  expect_refused(rules("tensor, none"), "'none' stands for no samples");
+  expect_refused(rules("tensor, equidistant"), "'equidistant' spans ranges of variables");
+  expect_refused(rules("tensor, Smolyak", "2; 1; 4"), "has 3 lists separated by ';' for Sampling/"
+                                                      "rule = tensor, Smolyak; give one list");
+  expect_refused(rules("tensor", "2; 1"), "has 2 lists separated by ';'");
+  expect_refused(rules("tensor, Smolyak", "2; "), "Smolyak needs Sampling/counts, which is empty");
+  expect_refused(rules("Smolyak, Monte Carlo", "0, 1"), "Monte Carlo gives no sample");
+  expect_refused(solid({{"Sampling/rule", "Monte Carlo, tensor"}}),
+                 "has complete realisations without variables");
+}
+
 TEST(ScenesOverAVariable, GoThroughItsValues)
 {
   const Settings axis = {{"Random/variables", "c: normal 1 2; d: uniform 1 3"},

@@ -352,7 +352,7 @@ TEST(SampleStatistics, HaveTheErrorOfTheInterpolant)
         field.values[p] = std::exp(plan.values[i][0]) * field.points[p][0];
       return made;
     };
-    const auto &sets = study::conclude_samples(scene, plan, record).cases.at(0).sets;
+    const auto sets = study::conclude_samples(scene, plan, record).cases.at(0).sets;
     const auto c = [&](std::size_t set, std::size_t k)
     { return plan.values[plan.sets[set].samples[k]][0]; };
     double largest = 0;
@@ -379,7 +379,7 @@ TEST(SampleStatistics, HaveTheErrorOfTheInterpolant)
     EXPECT_FALSE(without_first.cases.at(0).sets[0].interpolation_error);
   }
   const auto normal = random_scene({{"Sampling/counts", "1, 2, 3"}});
-  const auto &sets = conclude(normal, make_sampling_plan(normal), first).cases.at(0).sets;
+  const auto sets = conclude(normal, make_sampling_plan(normal), first).cases.at(0).sets;
   EXPECT_FALSE(sets[0].lebesgue || sets[0].interpolation_error) << "a variable is unbounded";
 }
 

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "physics/expression.h"
 #include "scene/keys.h"
 #include "scene/random_section.h"
 #include "scene/values.h"
@@ -21,27 +22,60 @@ namespace plumbline::scene
       }
       return counts;
     }
+
+    /// Of each rule, separated by ';'.
+    std::vector<std::vector<unsigned int>> to_lists(const std::string &text)
+    {
+      std::vector<std::vector<unsigned int>> lists;
+      for (const std::string &part : physics::split_outside_brackets(text, ';'))
+        lists.push_back(to_counts(part));
+      return text.empty() ? std::vector<std::vector<unsigned int>>() : lists;
+    }
+
+    std::vector<uq::SampleRule> to_rules(const std::string &text)
+    {
+      if (text == none)
+        return {};
+      std::vector<uq::SampleRule> rules;
+      for (const std::string &name : to_names(text))
+        rules.push_back(*base::from_word<uq::SampleRule>(name));
+      return rules;
+    }
   } // namespace
+
+  std::string SamplingSection::rule_words() const
+  {
+    std::vector<std::string> words;
+    for (const uq::SampleRule rule : rules)
+      words.push_back(base::word(rule));
+    return rules.empty() ? none : join(words, ", ");
+  }
 
   void SamplingSection::declare(Keys &keys)
   {
+    const auto &words = base::words<uq::SampleRule>;
     keys.add(
-        "rule", rule,
-        "Sampling rule of 'plumbline sample'. tensor: tensor products of Gauss rules (Hermite, "
+        "rule", none, some_of({words.begin(), words.end()}),
+        [this](const std::string &text) { rules = to_rules(text); },
+        "Sampling rule of 'plumbline sample', or several separated by ',', which are compared on "
+        "one "
+        "page. tensor: tensor products of Gauss rules (Hermite, "
         "Legendre). Smolyak: sparse grids, with some negative weights. Monte Carlo: independent "
         "samples. quasi-Monte Carlo: Sobol points. equidistant: equidistant points over the range "
         "of uniform variables; with one variable, charts show the results as functions of it. "
         "Chebyshev: tensor products of Chebyshev points (roots of T_n) of uniform variables, for "
-        "interpolation.");
+        "interpolation. Of several rules the first leads: pictures and tables of samples show its "
+        "last set, which is also the target own finest level.");
     keys.add("analysis", analysis,
              "Analysis of each sample. scene: the analysis that the scene defines: statics, "
              "transient (Time), dynamic fracture (Crack), quasi-static fracture (Fracture) or "
              "stationary crack (Strip). stability, dispersion: the analyses of these commands.");
     keys.add(
-        "counts", "", any_text(), [this](const std::string &text) { counts = to_counts(text); },
+        "counts", "", any_text(), [this](const std::string &text) { counts = to_lists(text); },
         "Size of each set of samples, increasing: points per variable (tensor, Chebyshev, "
         "equidistant), "
-        "levels 0, 1, ... (Smolyak), or number of samples.");
+        "levels 0, 1, ... (Smolyak), or number of samples. Of several rules one list for each, in "
+        "their order, separated by ';', or one for all.");
     keys.add(
         "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
         "Numbers of modes (Random/modes) that vary, increasing, each combined with every count; "
@@ -51,6 +85,6 @@ namespace plumbline::scene
              "level 0); odd, 2l - 1; doubling, 2^l - 1; nested, 1, 3, 5, 9, ... Clenshaw-Curtis "
              "points for uniform variables, 1, 3, 9, 19, 35 Genz-Keister points for normal ones.");
     keys.add("seed", seed, count(0),
-             "Seed of the random numbers; the same seed gives the same samples.");
+             "Monte Carlo: seed of the random numbers; the same seed gives the same samples.");
   }
 } // namespace plumbline::scene
