@@ -274,8 +274,8 @@ TEST(SampleCommand, compares_rules_with_the_numbers_of_each_alone)
   const Json json = results(both), sets = json["cases"][0]["sets"];
   EXPECT_EQ(json["n_samples"], 3 + 8);
   Json alone = results(sparse)["cases"][0]["sets"];
-  for (const Json &set : results(drawn)["cases"][0]["sets"])
-    alone.push_back(set);
+  const Json of_drawn = results(drawn)["cases"][0]["sets"];
+  alone.insert(alone.end(), of_drawn.begin(), of_drawn.end());
   EXPECT_EQ(sets, alone); // to the last bit
   const std::string page = read(both / "sample.html");
   for (const char *const text : {"h = 0.125, Smolyak", "h = 0.125, Monte Carlo",
