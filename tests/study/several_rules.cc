@@ -206,6 +206,7 @@ TEST(SeveralRules, NeedSamplesForAnErrorThatAllReach)
   one = finest_case();
   add_sets(one, SampleRule::monte_carlo, {{5, .01}});
   add_sets(one, SampleRule::tensor, {{1, 1}, {5, .009}});
+  EXPECT_EQ(study::compare_rules({one}).at(0).error, .01); // of the first
   EXPECT_NE(words_of(study::compare_rules({one}).at(0))
                 .find("Monte Carlo and tensor need the fewest samples"),
             std::string::npos);
