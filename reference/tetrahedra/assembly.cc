@@ -1,5 +1,6 @@
 #include "reference/tetrahedra/assembly.h"
 
+#include "reference/tetrahedra/entry_values.h"
 #include "reference/tetrahedra/face_sweep.h"
 #include "reference/tetrahedra/jump_assembly.h"
 
@@ -19,33 +20,7 @@ namespace plumbline::reference
   {
     using dealii::Point;
 
-    /// Of a pair of unknowns, components a and b: entries of bond tensors.
-    using Block = dealii::Tensor<2, 3>;
-
-    template <class Value>
-    constexpr unsigned int n_components = 1;
-    template <>
-    constexpr unsigned int n_components<Block> = 3;
-
-    double transposed(double value)
-    {
-      return value;
-    }
-    Block transposed(const Block &value)
-    {
-      return transpose(value);
-    }
-
-    double component(double value, unsigned int, unsigned int)
-    {
-      return value;
-    }
-    double component(const Block &value, unsigned int a, unsigned int b)
-    {
-      return value[a][b];
-    }
-
-    /// @tparam Value  double, or Block
+    /// @tparam Value  double, or SolidValue
     template <class Value>
     struct Entry
     {
@@ -82,7 +57,7 @@ namespace plumbline::reference
       sum += jump * parts[0] * (is_continuous ? -1 : f.normal * g.normal);
     }
 
-    void add_pair(Block &sum, double jump, bool is_continuous, const SpaceFace &f,
+    void add_pair(SolidValue &sum, double jump, bool is_continuous, const SpaceFace &f,
                   const SpaceFace &g, const std::array<double, 2> &parts)
     {
       const double cosine = f.normal * g.normal,
@@ -273,25 +248,7 @@ namespace plumbline::reference
       std::vector<Row<Value>> rows_;           ///< beyond n_rows only columns before it
     };
 
-    /// What ∫∇φ_i·∇φ_j (times the first factor) and ∫∇φ_i⊗∇φ_j (the second) of a cell add.
-    void add_slopes(double &sum, const std::array<double, 2> &factors,
-                    const dealii::Tensor<1, 3> &i, const dealii::Tensor<1, 3> &j)
-    {
-      sum += factors[0] * (i * j);
-    }
-
-    void add_slopes(Block &sum, const std::array<double, 2> &factors, const dealii::Tensor<1, 3> &i,
-                    const dealii::Tensor<1, 3> &j)
-    {
-      for (unsigned int a = 0; a < 3; ++a)
-      {
-        sum[a][a] += factors[0] * (i * j);
-        for (unsigned int b = 0; b < 3; ++b)
-          sum[a][b] += factors[1] * (i[a] * j[b]);
-      }
-    }
-
-    /// rows += those of the local operator, see add_slopes().
+    /// rows += those of the local operator, see add_product().
     template <class Value>
     void add_local(const TetrahedralSpace &space, const std::array<double, 2> &factors,
                    std::vector<Row<Value>> &rows)
@@ -309,7 +266,7 @@ namespace plumbline::reference
           for (unsigned int j = 0; j < 4; ++j)
           {
             local.push_back({space.dof(cell, j)});
-            add_slopes(local.back().value, factors, slopes[i], slopes[j]);
+            add_product(local.back().value, factors, slopes[i], slopes[j]);
           }
           std::sort(local.begin(), local.end(),
                     [](const Entry<Value> &a, const Entry<Value> &b)
@@ -325,7 +282,7 @@ namespace plumbline::reference
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t row = 0; row < rows.size(); ++row)
         for (const Entry<Value> &entry : rows[row])
-          for (unsigned int a = 0; entry.column == row && a < n_components<Value>; ++a)
+          for (unsigned int a = 0; entry.column == row && a < n_components_of<Value>; ++a)
             least = std::min(least, component(entry.value, a, a));
       return least;
     }
@@ -333,7 +290,7 @@ namespace plumbline::reference
     template <class Value>
     algebra::CsrMatrix to_matrix(const std::vector<Row<Value>> &rows, double factor)
     {
-      constexpr unsigned int n = n_components<Value>;
+      constexpr unsigned int n = n_components_of<Value>;
       algebra::CsrMatrix matrix;
       matrix.start.push_back(0);
       for (const Row<Value> &row : rows)
@@ -409,7 +366,7 @@ namespace plumbline::reference
       return assemble_with_jumps(space, kernel, n_rows, rule, use, dilatation);
     const SolidKernel parts(kernel, dilatation);
     return parts.parts.size() == 1 ? assemble<double>(space, parts, n_rows, rule, use)
-                                   : assemble<Block>(space, parts, n_rows, rule, use);
+                                   : assemble<SolidValue>(space, parts, n_rows, rule, use);
   }
 
   double difference(const algebra::CsrMatrix &a, const algebra::CsrMatrix &b)

@@ -174,7 +174,6 @@ namespace plumbline::reference
     std::size_t n_parts() const { return integrals_.size(); }
     /// Of each part; 0 where there is none.
     std::array<double, 2> diffusion() const;
-    const geometry::BoxSearch<3> &search() const { return search_; }
     bool is_needed(std::size_t face) const { return is_needed_[face] != 0; }
 
     /// What a thread needs for itself.

@@ -1,12 +1,9 @@
 #include "reference/tetrahedra/jump_assembly.h"
 
 #include "geometry/tetrahedral_check.h"
-#include "geometry/tetrahedral_domain.h"
+#include "reference/tetrahedra/bond_deficit.h"
 #include "reference/tetrahedra/face_sweep.h"
 #include "reference/tetrahedra/jump_pairs.h"
-#include "reference/tetrahedra/layer_flux.h"
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/base/parallel.h>
 
@@ -27,52 +24,8 @@ namespace plumbline::reference
 
     constexpr unsigned int n_corners = 4;
 
-    /// Of two unknowns, components c and d: entries of bond tensors.
-    using Tensor2 = Tensor<2, 3>;
-
     template <class Value>
-    constexpr unsigned int n_components = 1;
-    template <>
-    constexpr unsigned int n_components<Tensor2> = 3;
-
-    double transposed(double value)
-    {
-      return value;
-    }
-    Tensor2 transposed(const Tensor2 &value)
-    {
-      return transpose(value);
-    }
-
-    double component(double value, unsigned int, unsigned int)
-    {
-      return value;
-    }
-    double component(const Tensor2 &value, unsigned int c, unsigned int d)
-    {
-      return value[c][d];
-    }
-
-    /// What the kernel's parts, see SolidKernel, multiply for ∇φ_i and ∇φ_j.
-    void add_product(double &sum, const std::array<double, 2> &parts, const Tensor<1, 3> &i,
-                     const Tensor<1, 3> &j)
-    {
-      sum += parts[0] * (i * j);
-    }
-    void add_product(Tensor2 &sum, const std::array<double, 2> &parts, const Tensor<1, 3> &i,
-                     const Tensor<1, 3> &j)
-    {
-      const double isotropic = parts[0] * (i * j);
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        sum[c][c] += isotropic;
-        for (unsigned int d = 0; d < 3; ++d)
-          sum[c][d] += parts[1] * (i[c] * j[d]);
-      }
-    }
-
-    template <class Value>
-    using Matrix = std::array<std::array<Value, n_corners>, n_corners>;
+    using Matrix = CornerMatrix<Value>;
 
     /// Entries of the unknowns of two cells.
     template <class Value>
@@ -258,7 +211,6 @@ namespace plumbline::reference
       const std::vector<JumpFace> &faces() const { return faces_; }
       const std::vector<std::size_t> &blocks() const { return sorted_.blocks(); }
       std::size_t n_cells() const { return n_cells_; }
-      const geometry::BoxSearch<3> &search() const { return sweep_->search(); }
       std::array<double, 2> diffusion() const { return sweep_->diffusion(); }
 
       using FaceRow = std::array<BlockRow<Value>, 2>; ///< of each cell of a face
@@ -436,14 +388,6 @@ namespace plumbline::reference
       }
     }
 
-    /// Symmetric in the components, as the exact entries are.
-    void make_symmetric(double &) {}
-    void make_symmetric(Tensor2 &value)
-    {
-      constexpr double half = .5;
-      value = half * (value + transpose(value));
-    }
-
     /// The sum of it and its transpose.
     template <class Value>
     void make_symmetric(std::vector<BlockRow<Value>> &rows, std::size_t n_needed)
@@ -467,7 +411,7 @@ namespace plumbline::reference
         for (Block<Value> &block : rows[row])
           for (auto &of_corner : block.value)
             for (Value &value : of_corner)
-              make_symmetric(value);
+              symmetrise(value);
       }
     }
 
@@ -478,193 +422,24 @@ namespace plumbline::reference
       for (std::size_t row = 0; row < rows.size(); ++row)
         for (const Block<Value> &block : rows[row])
           for (unsigned int a = 0; a < n_corners && block.cell == row; ++a)
-            for (unsigned int c = 0; c < n_components<Value>; ++c)
+            for (unsigned int c = 0; c < n_components_of<Value>; ++c)
               least = std::min(least, component(block.value[a][a], c, c));
       return least;
     }
 
-    /// matrix -= ∫ λ_a λ_b e over a cell, where e is linear and ∫ λ_a e = sums[a].
-    template <class Value>
-    void subtract_linear_part(double volume, const std::array<Value, n_corners> &sums,
-                              Matrix<Value> &matrix)
+    std::vector<Interface> interfaces_of(const std::vector<JumpFace> &faces)
     {
-      // ∫ λ_a λ_b = V (1 + δ_ab) / 20, ∫ λ_a λ_b λ_c = V / 120 times the factorials of powers
-      constexpr double of_two = 20, of_three = 120, fifth = .2;
-      Value total{};
-      for (const Value &sum : sums)
-        total += sum;
-      for (unsigned int a = 0; a < n_corners; ++a)
-        for (unsigned int b = 0; b < n_corners; ++b)
-          for (unsigned int c = 0; c < n_corners; ++c)
-          {
-            const Value at_corner = (of_two / volume) * (sums[c] - fifth * total);
-            const int n_equal = (a == b ? 1 : 0) + (b == c ? 1 : 0) + (a == c ? 1 : 0);
-            const double factorials = n_equal == 3 ? 6 : n_equal == 1 ? 2 : 1;
-            matrix[a][b] -= (volume / of_three * factorials) * at_corner;
-          }
+      std::vector<Interface> interfaces;
+      for (const JumpFace &face : faces)
+        if (face.is_interface)
+        {
+          Interface one{face.face, face.normal, {}};
+          for (const JumpSide &side : face.sides)
+            one.cells[side.sign < 0 ? 0 : 1] = side.mesh_cell;
+          interfaces.push_back(one);
+        }
+      return interfaces;
     }
-
-    /// What the bonds of a point have less, by their factors, than if all had that of the point's
-    /// cell: the fluxes of layers on the interfaces.
-    template <class Value>
-    class Deficit
-    {
-    public:
-      Deficit(const JumpRows<Value> &of_face, const SolidKernel &kernel, const BondFactors &factors)
-          : of_face_(of_face), factors_(factors)
-      {
-        for (const PotentialKernel &part : kernel.parts)
-          fluxes_.emplace_back(part);
-      }
-
-      /// ∫ λ_a λ_b times it over a cell, by rules that are refined until the last change is below a
-      /// tolerance, but for its linear part. [reach^6]
-      /// @param corners    of the cell [reaches]
-      /// @param open       the last change, if it is larger at the finest level
-      Matrix<Value> integrals(std::size_t mesh_cell, const std::array<Point<3>, n_corners> &corners,
-                              double tolerance, double &open) const
-      {
-        const std::vector<Layer> layers = layers_about(mesh_cell, corners);
-        Matrix<Value> result{};
-        if (layers.empty())
-          return result;
-        static const std::vector<dealii::Quadrature<3>> rules = []
-        {
-          const dealii::QWitherdenVincentSimplex<3> coarse(3), fine(5);
-          return std::vector<dealii::Quadrature<3>>{coarse, fine, on_eighths(fine),
-                                                    on_eighths(on_eighths(fine))};
-        }();
-        const double volume = determinant_of(corners) / 6;
-        result = integrals(layers, corners, rules[0]);
-        double change = 0;
-        for (std::size_t level = 1; level < rules.size(); ++level)
-        {
-          const Matrix<Value> finer = integrals(layers, corners, rules[level]);
-          Matrix<Value> difference{};
-          std::array<Value, n_corners> sums{};
-          for (unsigned int a = 0; a < n_corners; ++a)
-            for (unsigned int b = 0; b < n_corners; ++b)
-            {
-              difference[a][b] = finer[a][b] - result[a][b];
-              sums[a] += difference[a][b];
-            }
-          subtract_linear_part(volume, sums, difference);
-          change = 0;
-          for (const auto &of_corner : difference)
-            for (const Value &value : of_corner)
-              for (unsigned int c = 0; c < n_components<Value>; ++c)
-                change = std::max(change, std::abs(component(value, c, c)));
-          result = finer;
-          if (change <= tolerance)
-            return result;
-        }
-        open = change;
-        return result;
-      }
-
-    private:
-      /// A face, and its normal times the difference of factors on its sides.
-      struct Layer
-      {
-        FaceSides face;
-        Tensor<1, 3> weight;
-      };
-
-      std::vector<Layer> layers_about(std::size_t mesh_cell,
-                                      const std::array<Point<3>, n_corners> &corners) const
-      {
-        geometry::Cuboid box{corners[0], corners[0]};
-        for (const Point<3> &corner : corners)
-          for (unsigned int d = 0; d < 3; ++d)
-          {
-            box.lower[d] = std::min(box.lower[d], corner[d] - 1);
-            box.upper[d] = std::max(box.upper[d], corner[d] + 1);
-          }
-        std::vector<unsigned int> near;
-        of_face_.search().find(box, near);
-        std::vector<Layer> layers;
-        for (const unsigned int k : near)
-          if (const JumpFace &face = of_face_.faces()[k]; face.is_interface)
-          {
-            Tensor<1, 3> weight;
-            for (const JumpSide &side : face.sides)
-              weight -= side.sign * factors_.between(mesh_cell, side.mesh_cell) * face.normal;
-            layers.push_back({FaceSides(face.face), weight});
-          }
-        return layers;
-      }
-
-      Matrix<Value> integrals(const std::vector<Layer> &layers,
-                              const std::array<Point<3>, n_corners> &corners,
-                              const dealii::Quadrature<3> &rule) const
-      {
-        const double determinant =
-            (corners[1] - corners[0]) *
-            cross_product_3d(corners[2] - corners[0], corners[3] - corners[0]);
-        Matrix<Value> result{};
-        for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const Point<3> &s = rule.point(q);
-          const std::array<double, n_corners> lambda = {1 - s[0] - s[1] - s[2], s[0], s[1], s[2]};
-          Point<3> x;
-          for (unsigned int a = 0; a < n_corners; ++a)
-            x += lambda[a] * corners[a];
-          const Value deficit = at(x, layers);
-          for (unsigned int a = 0; a < n_corners; ++a)
-            for (unsigned int b = 0; b < n_corners; ++b)
-              result[a][b] += (determinant * rule.weight(q) * lambda[a] * lambda[b]) * deficit;
-        }
-        return result;
-      }
-
-      static double determinant_of(const std::array<Point<3>, n_corners> &x)
-      {
-        return (x[1] - x[0]) * cross_product_3d(x[2] - x[0], x[3] - x[0]);
-      }
-
-      Value at(const Point<3> &x, const std::vector<Layer> &layers) const
-      {
-        Value sum{};
-        for (const Layer &layer : layers)
-          for (std::size_t part = 0; part < fluxes_.size(); ++part)
-          {
-            std::array<double, 2> is_part{};
-            is_part[part] = 1;
-            add_product(sum, is_part, fluxes_[part](x, layer.face), layer.weight);
-          }
-        make_symmetric(sum);
-        return sum;
-      }
-
-      /// The rule on the eight parts of a tetrahedron: four at its corners, and the octahedron
-      /// between them along a diagonal.
-      static dealii::Quadrature<3> on_eighths(const dealii::Quadrature<3> &whole)
-      {
-        geometry::TetrahedralMesh mesh;
-        mesh.vertices = {Point<3>(), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
-        mesh.cells = {{0, 1, 2, 3}};
-        mesh.is_inside = {1};
-        mesh = geometry::refine(mesh);
-        std::vector<Point<3>> points;
-        std::vector<double> weights;
-        for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-          for (unsigned int q = 0; q < whole.size(); ++q)
-          {
-            const auto &s = whole.point(q);
-            const auto &v = mesh.cells[cell];
-            const Point<3> &first = mesh.vertices[v[0]];
-            points.push_back(first + s[0] * (mesh.vertices[v[1]] - first) +
-                             s[1] * (mesh.vertices[v[2]] - first) +
-                             s[2] * (mesh.vertices[v[3]] - first));
-            weights.push_back(whole.weight(q) * geometry::determinant(mesh, cell));
-          }
-        return {points, weights};
-      }
-
-      const JumpRows<Value> &of_face_;
-      const BondFactors &factors_;
-      std::vector<LayerFlux> fluxes_; ///< of the kernel's parts
-    };
 
     /// Bonds get their factors. Rows annihilate constants: the linear part of what a cell's bonds
     /// have less is known from the entries of two cells, and only the rest is by quadrature.
@@ -677,7 +452,7 @@ namespace plumbline::reference
       std::vector<std::size_t> mesh_cell(mesh.cells.size());
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
         mesh_cell[space.dof(cell, 0) / n_corners] = cell;
-      const Deficit<Value> deficit(of_face, kernel, factors);
+      const BondDeficit<Value> deficit(interfaces_of(of_face.faces()), kernel, factors);
       std::mutex mutex;
       const auto finish = [&](std::size_t row)
       {
@@ -686,10 +461,9 @@ namespace plumbline::reference
         for (unsigned int a = 0; a < n_corners; ++a)
           corners[a] =
               Point<3>((mesh.vertices[mesh.cells[own][a]] - mesh.vertices.front()) / kernel.reach);
-        double open = 0;
         const double volume = determinant(mesh, own) / 6 / std::pow(kernel.reach, 3);
-        const Matrix<Value> of_bonds =
-            deficit.integrals(own, corners, of_jumps * kernel.m0 * volume, open);
+        const auto [of_bonds, open] =
+            deficit.integrals(own, corners, of_jumps * kernel.m0 * volume);
         std::array<Value, n_corners> sums{};
         Block<Value> *diagonal = nullptr;
         for (Block<Value> &block : rows[row])
@@ -727,7 +501,7 @@ namespace plumbline::reference
     template <class Value>
     algebra::CsrMatrix to_matrix(const std::vector<BlockRow<Value>> &rows, double factor)
     {
-      constexpr unsigned int n = n_components<Value>;
+      constexpr unsigned int n = n_components_of<Value>;
       algebra::CsrMatrix matrix;
       matrix.start.push_back(0);
       for (const BlockRow<Value> &row : rows)
@@ -802,7 +576,7 @@ namespace plumbline::reference
     {
       return kernel.parts.size() == 1
                  ? assemble<double>(space, kernel, n_rows, rule, use, factors, is_continuous)
-                 : assemble<Tensor2>(space, kernel, n_rows, rule, use, factors, is_continuous);
+                 : assemble<SolidValue>(space, kernel, n_rows, rule, use, factors, is_continuous);
     }
   } // namespace
 

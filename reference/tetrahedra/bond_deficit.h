@@ -1,0 +1,80 @@
+#pragma once
+
+#include "geometry/search.h"
+#include "reference/tetrahedra/bond_factors.h"
+#include "reference/tetrahedra/entry_values.h"
+#include "reference/tetrahedra/layer_flux.h"
+#include "reference/tetrahedra/solid_kernel.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace dealii
+{
+  template <int dim>
+  class Quadrature;
+}
+
+namespace plumbline::reference
+{
+  /// A face where the factors of bonds differ on both sides. [reaches]
+  struct Interface
+  {
+    PairFace face;
+    dealii::Tensor<1, 3> normal;
+    std::array<std::optional<std::size_t>, 2>
+        cells; ///< of the mesh: the normal points to the second
+  };
+
+  /// Of the linear functions λ_a of a cell's corners.
+  template <class Value>
+  using CornerMatrix = std::array<std::array<Value, 4>, 4>;
+
+  /// matrix -= ∫ λ_a λ_b e over a cell, where e is linear and ∫ λ_a e = sums[a].
+  template <class Value>
+  void subtract_linear_part(double volume, const std::array<Value, 4> &sums,
+                            CornerMatrix<Value> &matrix);
+
+  /// What the bonds of a point have less, by their factors, than if all had that of the point's
+  /// cell: ∫ a γ dy - a_TT m₀, the fluxes of layers on the interfaces, see LayerFlux. Lengths are
+  /// in reaches.
+  template <class Value>
+  class BondDeficit
+  {
+  public:
+    /// @param factors  must outlive it
+    BondDeficit(std::vector<Interface> interfaces, const SolidKernel &kernel,
+                const BondFactors &factors);
+
+    struct Integrals
+    {
+      CornerMatrix<Value> values{};
+      double open = 0; ///< the last change, if it is above the tolerance at the finest level
+    };
+
+    /// ∫ λ_a λ_b times it over a cell, by rules that are refined until the last change is below a
+    /// tolerance, but for its linear part. Thread safe.
+    Integrals integrals(std::size_t mesh_cell, const std::array<dealii::Point<3>, 4> &corners,
+                        double tolerance) const;
+
+  private:
+    /// An interface, and its normal times the difference of factors on its sides.
+    struct Layer
+    {
+      FaceSides face;
+      dealii::Tensor<1, 3> weight;
+    };
+    std::vector<Layer> layers_about(std::size_t mesh_cell,
+                                    const std::array<dealii::Point<3>, 4> &corners) const;
+    CornerMatrix<Value> integrals(const std::vector<Layer> &layers,
+                                  const std::array<dealii::Point<3>, 4> &corners,
+                                  const dealii::Quadrature<3> &rule) const;
+    Value at(const dealii::Point<3> &x, const std::vector<Layer> &layers) const;
+
+    std::vector<Interface> interfaces_;
+    geometry::BoxSearch<3> search_;
+    const BondFactors &factors_;
+    std::vector<LayerFlux> fluxes_; ///< of the kernel's parts
+  };
+} // namespace plumbline::reference
