@@ -192,7 +192,7 @@ TEST_F(BadMeshes, materials_that_do_not_fit_the_mesh_are_refused)
        {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: 5; collar: 1; steel: 2"),
         {"no physical surface 'steel'"}},
        {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: -5; collar: 1"),
-        {"is -5 at", "positive"}},
+        {"'omega_inclusion' is -5; it must be a positive number", "positive"}},
        {file + set("Kernel/materials", "omega_matrix: 1; omega_inclusion: hard; collar: 1"),
         {"Kernel/materials", "hard"}},
        {set("Kernel/materials", "collar: 1"), {"Kernel/materials is given", "Kernel/coefficient"}},
