@@ -425,7 +425,7 @@ TEST(StaticsInSpace, refuse_what_is_for_the_plane)
       {{{"Domain/boxes", "0,0,0 : 1,1,.1"}}, "0.8 along z"},
       {{{"Domain/mesh", "squares"}}, "Domain/mesh = squares yet; write lattice"},
       {{{"Domain/holes", "0,0 : .5,.5"}}, "needs three coordinates per corner"},
-      {{{"Kernel/coefficient", "1 + x"}}, "clear both"},
+      {{{"Kernel/coefficient", "1 + x"}}, "clear it (Kernel/materials"},
       {{{"Methods/nodes", "vertices"}}, "write centres"},
       {{{"Material/model", "double well"}}, "write bond-based, LPS or variational"},
       {with(lps, {{"Material/plane", "stress"}}), "Material/plane = stress has no effect here"},
