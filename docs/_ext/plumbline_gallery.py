@@ -87,11 +87,13 @@ EDGES = {4: [(a, b) for a in range(4) for b in range(a)],
          8: [(k + j, (k + 1) % 4 + j) for k in range(4) for j in (0, 4)] + [(k, k + 4) for k in range(4)]}
 
 
-def section_at_zero(cells):
-    """What the plane z = 0 cuts out of tetrahedra and hexahedra: polygons."""
+def middle_section(cells):
+    """What the plane across z in their middle cuts out of tetrahedra and hexahedra: polygons."""
+    z = [point[2] for _, corners in cells for point in corners]
+    middle_height = (min(z) + max(z)) / 2
     parts = []
     for name, corners in cells:
-        heights = [point[2] + 1e-9 for point in corners]  # no corner lies in the plane
+        heights = [point[2] - middle_height + 1e-9 for point in corners]  # no corner lies in the plane
         cut = []
         for a, b in EDGES[len(corners)]:
             if heights[a] * heights[b] < 0:
@@ -104,7 +106,7 @@ def section_at_zero(cells):
 
 
 def physical_cells(file, h, horizon, dimension):
-    """Cells of a .geo file with the name of their physical surface; in three dimensions their section at z = 0."""
+    """Cells of a .geo file with the name of their physical surface; in three dimensions their section across z."""
     text = subprocess.run(["gmsh", f"-{dimension}", "-v", "0", "-setnumber", "h", str(h), "-setnumber", "delta", str(horizon),
                            "-format", "msh2", "-o", "/dev/stdout", str(file)], capture_output=True, text=True,
                           check=True).stdout
@@ -119,7 +121,7 @@ def physical_cells(file, h, horizon, dimension):
             points[words[0]] = tuple(float(x) for x in words[1:dimension + 1])
         elif section == "$Elements" and len(words) > 5 and words[1] in (("2", "3") if dimension == 2 else ("4", "5")):
             cells.append((names.get(words[3], "omega"), [points[w] for w in words[3 + int(words[2]):]]))
-    return cells if dimension == 2 else section_at_zero(cells)
+    return cells if dimension == 2 else middle_section(cells)
 
 
 def sketch(values, folder):
