@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -110,9 +109,13 @@ namespace plumbline::reference
       const std::vector<std::size_t> &blocks() const { return sorted_.blocks(); }
       std::array<double, 2> diffusion() const { return sweep_->diffusion(); }
 
+      using FaceRow = Row<Value>;
+
       /// What a thread needs for itself.
       struct Workspace
       {
+        void add_use(FaceRuleUse &total) const { of_pairs.add_use(total); }
+
         std::vector<unsigned int> columns;
         std::vector<Value> sums;     ///< of all unknowns, 0 between calls
         std::vector<char> is_summed; ///< of all unknowns, 0 between calls
@@ -121,7 +124,7 @@ namespace plumbline::reference
 
       /// rows = sums of the faces of a block.
       /// @param rows  as many as the block has faces
-      void add_block(std::size_t block, Row<Value> *rows, Workspace &work) const
+      void add_block(std::size_t block, FaceRow *rows, Workspace &work) const
       {
         sweep_->for_each_face(block, work.of_pairs,
                               [&](std::size_t face, const std::vector<unsigned int> &near)
@@ -312,31 +315,12 @@ namespace plumbline::reference
                                 std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use)
     {
       const FaceRows<Value> of_face(space, kernel, n_rows, rule);
-      const std::vector<std::size_t> &blocks = of_face.blocks();
       DofRows<Value> sums(of_face.faces(), space.n_dofs(), n_rows);
-      std::mutex mutex;
-      FaceRuleUse total;
       constexpr std::size_t n_at_once = 2048; // some 15 MB of rows of faces, of bond tensors 75
-      std::vector<Row<Value>> of_faces;
-      for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
-      {
-        while (last + 1 < blocks.size() &&
-               (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
-          ++last;
-        of_faces.assign(blocks[last] - blocks[first], {});
-        dealii::parallel::apply_to_subranges(
-            first, last,
-            [&](std::size_t begin, std::size_t end)
-            {
-              typename FaceRows<Value>::Workspace work;
-              for (std::size_t block = begin; block < end; ++block)
-                of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
-              const std::lock_guard<std::mutex> lock(mutex);
-              work.of_pairs.add_use(total);
-            },
-            1);
-        sums.add_faces(of_faces, blocks[first], blocks[last]);
-      }
+      const FaceRuleUse total =
+          for_each_group(of_face, n_at_once,
+                         [&sums](const auto &of_faces, std::size_t first, std::size_t last)
+                         { sums.add_faces(of_faces, first, last); });
       std::vector<Row<Value>> rows = sums.symmetric();
       // lengths of ∬γ in reaches: 6; of derivatives of φ_i and φ_j: -1 each; of ∫∇φ·∇φ: 1
       double unit = kernel.constant * std::pow(kernel.reach, 6);

@@ -336,7 +336,7 @@ namespace plumbline::reference
     }
 
   private:
-    static constexpr double n_terms = 32;
+    static constexpr double n_terms = 16; // a sum has 15 at most
 
     bool is_enough(const SharedSum &sum, const Real &factor) const
     {

@@ -6,6 +6,8 @@
 #include "reference/tetrahedra/lattice_faces.h"
 #include "reference/tetrahedra/solid_kernel.h"
 
+#include <deal.II/base/parallel.h>
+
 #include <array>
 #include <functional>
 #include <map>
@@ -201,4 +203,36 @@ namespace plumbline::reference
     std::vector<std::unique_ptr<const FaceIntegrals>> integrals_; ///< of each part
     geometry::BoxSearch<3> search_;
   };
+
+  /// Blocks in groups of some n_at_once faces: the rows of a group's faces, whose blocks threads
+  /// share, then add(rows, first, last) for its faces first ... last - 1.
+  /// @tparam Rows  has a FaceRow, a Workspace, blocks() and add_block()
+  template <class Rows, class Add>
+  FaceRuleUse for_each_group(const Rows &of_face, std::size_t n_at_once, const Add &add)
+  {
+    const std::vector<std::size_t> &blocks = of_face.blocks();
+    std::mutex mutex;
+    FaceRuleUse total;
+    std::vector<typename Rows::FaceRow> rows;
+    for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
+    {
+      while (last + 1 < blocks.size() &&
+             (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
+        ++last;
+      rows.assign(blocks[last] - blocks[first], {});
+      dealii::parallel::apply_to_subranges(
+          first, last,
+          [&](std::size_t begin, std::size_t end)
+          {
+            typename Rows::Workspace work;
+            for (std::size_t block = begin; block < end; ++block)
+              of_face.add_block(block, &rows[blocks[block] - blocks[first]], work);
+            const std::lock_guard<std::mutex> lock(mutex);
+            work.add_use(total);
+          },
+          1);
+      add(rows, blocks[first], blocks[last]);
+    }
+    return total;
+  }
 } // namespace plumbline::reference

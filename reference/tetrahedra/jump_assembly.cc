@@ -218,6 +218,13 @@ namespace plumbline::reference
       /// What a thread needs for itself.
       struct Workspace
       {
+        void add_use(FaceRuleUse &total) const
+        {
+          of_pairs.add_use(total);
+          total.n_open += use.n_open;
+          total.open = std::max(total.open, use.open);
+        }
+
         std::vector<unsigned int> place; ///< of cells among columns + 1, else 0
         FaceSweep::Workspace of_pairs;
         FaceRuleUse use; ///< of jumps
@@ -527,36 +534,17 @@ namespace plumbline::reference
     {
       const JumpRows<Value> of_face(space, kernel, n_rows, rule, factors, is_continuous);
       const std::size_t n_needed = n_rows / n_corners;
-      const std::vector<std::size_t> &blocks = of_face.blocks();
       std::vector<BlockRow<Value>> rows(of_face.n_cells());
-      std::mutex mutex;
-      FaceRuleUse total;
       constexpr std::size_t n_at_once = 256; // some 50 MB of rows of faces
-      std::vector<typename JumpRows<Value>::FaceRow> of_faces;
-      for (std::size_t first = 0, last = 0; first + 1 < blocks.size(); first = last)
-      {
-        while (last + 1 < blocks.size() &&
-               (last == first || blocks[last + 1] - blocks[first] <= n_at_once))
-          ++last;
-        of_faces.assign(blocks[last] - blocks[first], {});
-        dealii::parallel::apply_to_subranges(
-            first, last,
-            [&](std::size_t begin, std::size_t end)
-            {
-              typename JumpRows<Value>::Workspace work;
-              for (std::size_t block = begin; block < end; ++block)
-                of_face.add_block(block, &of_faces[blocks[block] - blocks[first]], work);
-              const std::lock_guard<std::mutex> lock(mutex);
-              work.of_pairs.add_use(total);
-              total.n_open += work.use.n_open;
-              total.open = std::max(total.open, work.use.open);
-            },
-            1);
-        for (std::size_t face = blocks[first]; face < blocks[last]; ++face)
-          for (std::size_t side = 0; side < of_face.faces()[face].sides.size(); ++side)
-            if (const BlockRow<Value> &row = of_faces[face - blocks[first]][side]; !row.empty())
-              add(rows[of_face.faces()[face].sides[side].cell], row);
-      }
+      FaceRuleUse total = for_each_group(
+          of_face, n_at_once,
+          [&](const auto &of_faces, std::size_t first, std::size_t last)
+          {
+            for (std::size_t face = first; face < last; ++face)
+              for (std::size_t side = 0; side < of_face.faces()[face].sides.size(); ++side)
+                if (const BlockRow<Value> &row = of_faces[face - first][side]; !row.empty())
+                  add(rows[of_face.faces()[face].sides[side].cell], row);
+          });
       add_local(space, kernel.reach, of_face, rows, n_needed);
       make_symmetric(rows, n_needed);
       if (factors != nullptr)

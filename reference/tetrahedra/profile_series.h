@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace plumbline::reference
@@ -18,12 +19,11 @@ namespace plumbline::reference
     bool is_series = false;
 
     void evaluate(const Real *r, Real *values, unsigned int n) const;
-    Real operator()(const Real &r) const
-    {
-      Real value;
-      evaluate(&r, &value, 1);
-      return value;
-    }
+    Real operator()(const Real &r) const { return is_series ? series_at(r) : powers_at(r); }
+
+  private:
+    Real powers_at(const Real &r) const;
+    Real series_at(const Real &r) const;
   };
 
   /// t ρ(t) of a radial profile on [0, 1] as a Chebyshev series: the one table that stands for a
@@ -69,6 +69,13 @@ namespace plumbline::reference
   template <class Real>
   void RadialPolynomial<Real>::evaluate(const Real *r, Real *values, unsigned int n) const
   {
+    if constexpr (!std::is_same_v<Real, double>)
+    {
+      // not vectorised: sums of one radius stay in registers
+      for (unsigned int q = 0; q < n; ++q)
+        values[q] = (*this)(r[q]);
+      return;
+    }
     const std::size_t size = c.size();
     if (!is_series)
     {
@@ -79,7 +86,7 @@ namespace plumbline::reference
           values[q] = values[q] * r[q] + c[j];
       return;
     }
-    std::array<Real, most_radii> x, last; // filled up to n; Clenshaw's recurrence
+    std::array<Real, most_radii> x, last; // filled up to n
     for (unsigned int q = 0; q < n; ++q)
     {
       x[q] = 4 * r[q] - 2;
@@ -94,5 +101,28 @@ namespace plumbline::reference
       }
     for (unsigned int q = 0; q < n; ++q)
       values[q] = x[q] * values[q] / 2 + (c[0] - last[q]);
+  }
+
+  template <class Real>
+  Real RadialPolynomial<Real>::powers_at(const Real &r) const
+  {
+    Real value = c.back();
+    for (std::size_t j = c.size() - 1; j-- > 0;)
+      value = value * r + c[j];
+    return value;
+  }
+
+  template <class Real>
+  Real RadialPolynomial<Real>::series_at(const Real &r) const
+  {
+    const Real x = 4 * r - 2; // Clenshaw's recurrence
+    Real value = 0, last = 0;
+    for (std::size_t j = c.size() - 1; j > 0; --j)
+    {
+      const Real next = x * value + (c[j] - last);
+      last = value;
+      value = next;
+    }
+    return x * value / 2 + (c[0] - last);
   }
 } // namespace plumbline::reference
