@@ -20,7 +20,7 @@ namespace plumbline::meshfree
                                                                const problem::Problem<3> &problem);
 
   /// On scattered nodes in space: a sparse matrix.
-  /// @pre problem.cells, no dilatation
+  /// @pre problem.cells; with a dilatation whole families, and no factors
   std::unique_ptr<method::DiscretisationInSpace>
   discretise_on_nodes(const Rule &rule, const problem::Problem<3> &problem);
 

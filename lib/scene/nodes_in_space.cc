@@ -37,6 +37,7 @@ namespace plumbline::scene
     const NodeSource &source = scene.methods.nodes;
     const bool is_file = source.kind() == NodeKind::file;
     const std::string file = source.file_at(level.h);
+    const double reach = scene.reach(level.horizon);
     try
     {
       if (is_file)
@@ -44,16 +45,16 @@ namespace plumbline::scene
         const auto nodes =
             read_nodes_in_space((std::filesystem::path(scene.folder) / file).string());
         check_memory(static_cast<double>(nodes.size()), level);
-        return voronoi_cells(nodes, lattice, level.horizon);
+        return voronoi_cells(nodes, lattice, reach);
       }
-      const int n_layers = geometry::layers_for(level.horizon, level.h);
+      const int n_layers = geometry::layers_for(reach, level.h);
       double n = 1;
       for (const int along : lattice.n_cells())
         n *= along + 2. * n_layers;
       check_memory(n, level);
       return voronoi_cells(
           lattice_nodes(lattice, n_layers, source.perturbation, scene.geometry.seed), lattice,
-          level.horizon);
+          reach);
     }
     catch (const InputError &error)
     {

@@ -56,19 +56,12 @@ namespace plumbline::scene
       needs(!is_on_mesh || nodes.perturbation == 0, "Methods/perturbation" + on_mesh, "write 0");
       if (nodes.are_lattice_centres())
         return;
-      const std::string scattered =
-          nodes.perturbation > 0
-              ? "Methods/perturbation = " + short_number(nodes.perturbation) + " with "
-              : "Methods/nodes = " + nodes.name + " with ";
       require(scene.solver.iteration != base::Iteration::cg,
               "Solver/iteration = cg needs a symmetric operator, but on scattered nodes a bond has "
               "two weights, one for each end; write automatic, gmres or bicgstab");
       require(scene.solver.operator_backend == base::OperatorBackend::automatic,
               "Solver/operator = " + base::word(scene.solver.operator_backend) +
                   " is for lattices; scattered nodes have a sparse matrix: write automatic");
-      const std::string remedy = ", or Methods/nodes = centres and Methods/perturbation = 0";
-      needs(!scene.has_dilatation(), scattered + "Material/model = " + scene.material.model->name(),
-            "write bond-based" + remedy);
     }
 
     void check_fracture_in_space(const Scene &scene)

@@ -282,7 +282,7 @@ namespace plumbline::meshfree
     if (size.is_scattered)
     {
       constexpr double of_cell = 8000; // a polyhedron, in the layer around the box, too
-      const double m = level.horizon / level.h, width = 2 * (m + 1);
+      const double m = size.reach() / level.h, width = 2 * (m + 1);
       const double in_ball = 4 * M_PI / 3 * std::pow(m + .25, 3);
       return size.extents[0] * size.extents[1] * size.depth * in_ball * std::pow(n_components, 2) *
                  of_entry +

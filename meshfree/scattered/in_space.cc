@@ -1,5 +1,6 @@
 #include "meshfree/discretisations.h"
 #include "meshfree/rules/families.h"
+#include "meshfree/scattered/dilatation_rows.h"
 #include "meshfree/scattered/field.h"
 #include "meshfree/scattered/motion.h"
 #include "method/limit_proof.h"
@@ -28,17 +29,19 @@ namespace plumbline::meshfree
               problem.mesh->hexahedra.empty() ? 1 : geometry::n_in_hexahedron;
           return problem.mesh->group[n_parts * cells_->source[node]];
         };
-        method::PartitionedRows rows = method::part(
-            bond_rows<3>([&](std::size_t i, Family<3> &family) { families.make(i, family); },
-                         problem.kernel, n_components_, {0, cells_->n_free},
+        const auto make = [&](std::size_t i, Family<3> &family) { families.make(i, family); };
+        algebra::CsrMatrix all =
+            bond_rows<3>(make, problem.kernel, n_components_, {0, cells_->n_free},
                          [&](std::size_t i, const Family<3> &family, std::vector<double> &factors)
                          {
                            statistics.add(problem.kernel, cells_->nodes[i], family);
                            for (std::size_t k = 0; problem.factors && k < factors.size(); ++k)
                              factors[k] =
                                  problem.factors->between(group(i), group(family.neighbours[k]));
-                         }),
-            n_unknowns());
+                         });
+        if (problem.dilatation)
+          all = algebra::add(all, dilatation_rows(make, *problem.dilatation, *cells_));
+        method::PartitionedRows rows = method::part(std::move(all), n_unknowns());
         free_ = std::make_shared<const algebra::CsrMatrix>(std::move(rows.free));
         constrained_ = std::move(rows.constrained);
         diagnostics_ = statistics.diagnostics(base::Communicator::alone());

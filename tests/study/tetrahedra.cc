@@ -62,10 +62,10 @@ TEST(StaticsOnTetrahedra, of_solids_have_linear_fields_on_moved_ones_and_errors_
                           {"Problem/solution", "x + 2*y - z, 3*z - y, x"},
                           {"Study/m", "1"},
                           {"Study/h", "1/4"}};
-  for (const std::string method : {"P1", "DGP1"})
+  for (const auto &[solid, method] :
+       {std::pair(bond_based, "P1"), {bond_based, "DGP1"}, {state_based, "P1"}})
   {
-    const auto results =
-        run(make_scene(with(bond_based, with(moved, {{"Methods/names", method}}))));
+    const auto results = run(make_scene(with(solid, with(moved, {{"Methods/names", method}}))));
     ASSERT_EQ(results.records.front().failure, "") << method;
     EXPECT_LT(results.records.front()["averages L2 | exact"], 1e-11) << method;
   }
