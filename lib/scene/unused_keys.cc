@@ -23,7 +23,7 @@ namespace plumbline::scene
       std::string needs;     ///< what it is for
     };
 
-    /// Entries in space are exact, but for those of Q1 on the hexahedra of a file.
+    /// In space, only Q1 on the hexahedra of a file has outer quadrature.
     bool takes_outer_rule_in_space(const Scene &scene)
     {
       const auto is_meant = [](const std::string &method)
@@ -43,10 +43,10 @@ namespace plumbline::scene
                                scene.methods.nodes.are_lattice_centres();
       const bool is_on_line = is_on_intervals(scene), is_in_plane = !is_in_space && !is_on_line;
       const bool has_outer_rule = is_in_plane || takes_outer_rule_in_space(scene);
-      const std::string exact = "two dimensions; entries " +
-                                std::string(is_on_line ? "on intervals are exact"
-                                                       : "in three dimensions are exact, but for "
-                                                         "those of Q1 on hexahedra");
+      const std::string exact =
+          std::string("two dimensions; ") +
+          (is_on_line ? "entries on intervals are exact"
+                      : "in three dimensions only Q1 on hexahedra has outer quadrature");
       return {
           {"Study/m", !takes_horizon,
            "Study/regime = delta, delta-m or variable; with " + base::word(regime) +

@@ -165,7 +165,7 @@ TEST_F(ProblemsOnHexahedra, are_refused_where_methods_or_settings_do_not_fit)
   for (const char *const names : {"DGQ0", "P1, DGP0, DGP1"})
     expect_refused(with(tight, {{"Methods/names", names}}),
                    "Quadrature/tolerance = 1e-5 has no effect here: it needs two dimensions; "
-                   "entries in three dimensions are exact, but for those of Q1 on hexahedra");
+                   "in three dimensions only Q1 on hexahedra has outer quadrature");
   expect_refused({{"Methods/names", "DGQ0"}, {"Quadrature/max refinements", "2"}},
                  "Quadrature/max refinements = 2 has no effect here");
 }

@@ -42,10 +42,11 @@ namespace plumbline::scene
              "parallelograms up to degree 1 and piecewise constants by integrals over pairs of "
              "sides, scalar kernels and bond tensors), else by quadrature, with the reason in the "
              "report. quadrature: all entries by quadrature.");
-    keys.add("tolerance", tolerance, between(0, 1),
-             "Outer quadrature on meshes (in three dimensions of Q1 on hexahedra; other entries "
-             "are exact) is refined until the relative change of the solution is below this "
-             "tolerance. 0: the first rule is used without an error estimate.");
+    keys.add(
+        "tolerance", tolerance, between(0, 1),
+        "Outer quadrature on meshes (in three dimensions for Q1 on hexahedra alone) is refined "
+        "until the relative change of the solution is below this tolerance. 0: the first rule "
+        "is used without an error estimate.");
     keys.add("max refinements", max_refinements, count(0, 8),
              "Maximum number of refinements; if they do not meet the tolerance the run ends with "
              "exit code 3.");
