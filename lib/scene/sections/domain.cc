@@ -119,9 +119,8 @@ namespace plumbline::scene
         "Domain/fixed (Material/model = variational). The body is one box (Domain/mesh = lattice), "
         "or the union of the cells of a mesh, clipped to which the squares around the nodes are "
         "node cells; without boxes the nodes are on h Z^2. periodic: one box as a torus "
-        "(Material/model = double well). In three dimensions free is for a mesh file, whose "
-        "physical "
-        "volumes collar... are where u is prescribed.");
+        "(Material/model = double well). In three dimensions free needs a mesh file; u is "
+        "prescribed in its physical volumes whose names begin with 'collar'.");
     keys.add(
         "fixed", "", any_text(),
         [this](const std::string &text)

@@ -168,8 +168,8 @@ namespace plumbline::scene
         "'method, quantity: value' of 'plumbline sample', from the largest set of samples at the "
         "finest level, to Expected/error tolerance; quantities as named in its table (the error of "
         "the interpolant: of the last set that has one), or variance kept, the fraction of a "
-        "field's variance in its modes. Of several rules the first; 'error of the mean by Monte "
-        "Carlo' is of the rule named.");
+        "field's variance in its modes. With several rules these are of the first one; 'error of "
+        "the mean by Monte Carlo' is of the rule that is named.");
     add(ExpectedKind::strip,
         "'method, quantity[, series]: q0 q1 ...' of 'plumbline strip' at each level, to "
         "Expected/error tolerance. Quantities: W1, tip energy, opening, G (relative to the local "

@@ -58,14 +58,13 @@ namespace plumbline::scene
         "rule", none, some_of({words.begin(), words.end()}),
         [this](const std::string &text) { rules = to_rules(text); },
         "Sampling rule of 'plumbline sample', or several separated by ',', which are compared on "
-        "one "
-        "page. tensor: tensor products of Gauss rules (Hermite, "
+        "one page. tensor: tensor products of Gauss rules (Hermite, "
         "Legendre). Smolyak: sparse grids, with some negative weights. Monte Carlo: independent "
         "samples. quasi-Monte Carlo: Sobol points. equidistant: equidistant points over the range "
         "of uniform variables; with one variable, charts show the results as functions of it. "
         "Chebyshev: tensor products of Chebyshev points (roots of T_n) of uniform variables, for "
-        "interpolation. Of several rules the first leads: pictures and tables of samples show its "
-        "last set, which is also the target own finest level.");
+        "interpolation. With several rules the first one leads: pictures and tables of samples "
+        "show its last set, which is also the target 'own finest level'.");
     keys.add("analysis", analysis,
              "Analysis of each sample. scene: the analysis that the scene defines: statics, "
              "transient (Time), dynamic fracture (Crack), quasi-static fracture (Fracture) or "
@@ -74,8 +73,8 @@ namespace plumbline::scene
         "counts", "", any_text(), [this](const std::string &text) { counts = to_lists(text); },
         "Size of each set of samples, increasing: points per variable (tensor, Chebyshev, "
         "equidistant), "
-        "levels 0, 1, ... (Smolyak), or number of samples. Of several rules one list for each, in "
-        "their order, separated by ';', or one for all.");
+        "levels 0, 1, ... (Smolyak), or number of samples. For several rules give one list for "
+        "each, in their order, separated by ';', or one list for all.");
     keys.add(
         "modes", "", any_text(), [this](const std::string &text) { modes = to_counts(text); },
         "Numbers of modes (Random/modes) that vary, increasing, each combined with every count; "
