@@ -112,7 +112,8 @@ namespace plumbline::reference
                  "constants that vary in space (LPS) and Material/surface terms = none at cracks "
                  "make none; write automatic, gmres or bicgstab";
         if (problem.damage.outside && problem.mesh() && !problem.mesh()->wholes.empty())
-          return "Domain/outside and Domain/sides = curved; write Domain/sides = straight";
+          return "Domain/outside is not available with Domain/sides = curved; write Domain/sides = "
+                 "straight";
         if (by_quadrature_ && problem.mesh() && !problem.mesh()->wholes.empty())
           return "Domain/sides = curved has no entries by quadrature; take " +
                  GalerkinMethod(n_vertices_, is_continuous_, degree_).name() +

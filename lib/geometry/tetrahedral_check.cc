@@ -366,11 +366,12 @@ namespace plumbline::geometry
   {
     constexpr double rounding = 1e-9;
     if (const double width = collar_width(mesh, reach); width < reach * (1 - rounding))
-      throw InputError("the interaction domain is " + base::to_text(width, 6) +
-                       " wide at its thinnest place, thinner than the reach of the kernel, " +
-                       base::to_text(reach, 6) +
-                       " (the horizon, twice the horizon with a dilatation), so that balls would "
-                       "contain points without data; widen the physical "
-                       "volumes collar... in the mesh, or choose a smaller horizon");
+      throw InputError(
+          "the interaction domain is " + base::to_text(width, 6) +
+          " wide at its thinnest place, thinner than the reach of the kernel, " +
+          base::to_text(reach, 6) +
+          " (the horizon, or twice the horizon with a dilatation), so that balls would "
+          "contain points without data; widen the physical "
+          "volumes collar... in the mesh, or choose a smaller horizon");
   }
 } // namespace plumbline::geometry

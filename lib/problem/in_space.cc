@@ -222,8 +222,9 @@ namespace plumbline::problem
       throw InputError("load: there is neither a load nor a solution to manufacture it from; give "
                        "one of them");
     if (!problem.load.value && (problem.factors || problem.is_free))
-      throw InputError("load: it is manufactured for homogeneous materials and u given all around "
-                       "the domain only; give a load");
+      throw InputError(
+          "load: it can be manufactured only for homogeneous materials and u prescribed "
+          "all around the domain; give a load");
     if (!problem.constraint.value && !problem.solution)
       throw InputError("constraint: u is not known around the domain; give the constraint or the "
                        "solution");

@@ -82,7 +82,7 @@ namespace plumbline::report
           {"reaction left", "reaction at the end relative to its peak"},
           {"load left",
            "part of the dead loads that acts on connected nodes at the end: nodes that "
-           "come loose lose theirs"},
+           "come loose lose their loads"},
           {"s0", "critical stretch of bonds, the minimum over all materials"},
           {"G_h / G", "energy of all bonds across a straight " +
                           std::string(is_in_space ? "plane" : "line") +
@@ -178,7 +178,7 @@ namespace plumbline::report
                " of its peak";
       const double left = record["load left"];
       return " connect what is loaded with the grips" +
-             (left > 0 ? ", and " + rounded(left) + " of the dead loads acts on connected nodes"
+             (left > 0 ? ", and " + rounded(left) + " of the dead loads act on connected nodes"
                        : "");
     }
 

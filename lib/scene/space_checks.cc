@@ -30,10 +30,12 @@ namespace plumbline::scene
       needs(!domain.mesh.is_curved, "Domain/sides = curved", "write straight");
       const bool is_fracture = scene.fracture.is_there(); // see check_fracture
       needs(!domain.is_periodic, "Domain/boundary = periodic", "write constrained");
-      needs(!domain.is_free_body || is_fracture || domain.mesh.is_file(),
-            "Domain/boundary = free with Domain/mesh = " + domain.mesh.name,
-            "write constrained, or a file .msh or .geo, whose physical volumes collar... are where "
-            "u is prescribed (boxes with free surfaces are for fracture, section Fracture)");
+      needs(
+          !domain.is_free_body || is_fracture || domain.mesh.is_file(),
+          "Domain/boundary = free with Domain/mesh = " + domain.mesh.name,
+          "write constrained, or as Domain/mesh a file .msh or .geo, where u is prescribed in the "
+          "physical volumes collar... (boxes with free surfaces are for fracture, section "
+          "Fracture)");
       require(!domain.is_free_body || is_fracture || (domain.fixed.empty() && !domain.is_floating),
               "Domain/fixed is for lattices; in a body from Domain/mesh = " + domain.mesh.name +
                   " u is prescribed in its physical volumes collar...: clear it");

@@ -345,9 +345,10 @@ namespace plumbline::study
         results.omissions.push_back(omitted_matrix(*by_stencil));
       if (scene.domain.is_in_space() && scene.domain.mesh.is_file() && scene.is_homogeneous() &&
           !scene.domain.is_free_body)
-        results.omissions.push_back({"factors of bonds, and what shape functions jump by",
-                                     "the material is homogeneous, and u is prescribed all around",
-                                     "integrals with jumps, which take most of the time"});
+        results.omissions.push_back(
+            {"factors of bonds",
+             "the material is homogeneous, and u is prescribed all around the domain",
+             "quadrature near interfaces and free surfaces, which takes most of the time"});
       if (scene.solver.is_full_model)
       {
         results.omissions.clear();

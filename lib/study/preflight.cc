@@ -238,9 +238,10 @@ namespace plumbline::study
   void check_data(const scene::Scene &scene)
   {
     if (const scene::Model &model = *scene.material.model; !model.is_linear())
-      throw InputError("Time/final time = 0: Material/model = " + model.name() +
-                       " has no static analysis, its force is nonlinear; give a time > 0, or write "
-                       "Material/model = bond-based");
+      throw InputError(
+          "Time/final time = 0: Material/model = " + model.name() +
+          " has no static analysis, because its force is nonlinear; give a time > 0, or write "
+          "Material/model = bond-based");
     check_analysis(scene, scene::Analysis::statics);
     if (!scene.domain.mesh.is_lattice() || scene.domain.is_free_body)
       scene.domain.is_in_space() ? check_meshes_in_space(scene) : check_meshes(scene);

@@ -156,7 +156,9 @@ namespace plumbline::reference
     return "; a Chebyshev series of " + std::to_string(series.coefficients.size()) +
            " terms approximates the radial profile, to " + base::to_text(series.error, 1) +
            " of the kernel's integral" +
-           (has_logarithms ? ", and 126 terms t ln t, to 3e-13 of its first moment" : "");
+           (has_logarithms
+                ? ", and one of 126 terms approximates t ln t, to 3e-13 of its first moment"
+                : "");
   }
 
   std::vector<double> FacePotential::ends() const

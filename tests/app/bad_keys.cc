@@ -130,10 +130,9 @@ TEST_F(BadKeys, without_effect_are_refused_with_what_they_need)
   const std::string wells = set("Material/model", "double well") +
                             set("Domain/boundary", "periodic") + set("Kernel/limit", "Navier") +
                             set("Problem/solution", "sin(2*pi*x), 0");
-  expect_refusals(
-      {{wells + set("Time/schemes", "implicit Euler"),
-        {"Time/final time = 0: Material/model = double well has no static analysis, its "
-         "force is nonlinear; give a time > 0"}}});
+  expect_refusals({{wells + set("Time/schemes", "implicit Euler"),
+                    {"Time/final time = 0: Material/model = double well has no static analysis, "
+                     "because its force is nonlinear; give a time > 0"}}});
   // defaults may stand, and what is turned off keeps its keys
   for (const std::string &more :
        {set("Study/horizon", "0.4"), set("Study/horizon", "4e-1"), set("Kernel/constant", "1.0"),

@@ -209,7 +209,7 @@ namespace plumbline::report
       return in_one_line(text_of(results));
     };
     const std::string connect = "bonds still connect what is loaded with the grips";
-    EXPECT_NE(text_with(.25).find(connect + ", and 0.25 of the dead loads acts on connected nodes"),
+    EXPECT_NE(text_with(.25).find(connect + ", and 0.25 of the dead loads act on connected nodes"),
               std::string::npos)
         << text_with(.25);
     EXPECT_NE(text_with(0).find("no bonds connect what is loaded with the grips."),

@@ -218,10 +218,11 @@ TEST_F(ProblemsOnTetrahedra, are_refused_on_meshes_that_do_not_fit_the_level)
 {
   const Settings on_cube = {{"Domain/mesh", cube_}};
   EXPECT_EQ(message_of(on_cube), "");
-  expect_refused(with(on_cube, {{"Study/m", "1.2"}}),
-                 "the interaction domain is 0.5 wide at its thinnest place, thinner than the "
-                 "reach of the kernel, 0.6 (the horizon, twice the horizon with a dilatation), so "
-                 "that balls would contain points without data; widen");
+  expect_refused(
+      with(on_cube, {{"Study/m", "1.2"}}),
+      "the interaction domain is 0.5 wide at its thinnest place, thinner than the "
+      "reach of the kernel, 0.6 (the horizon, or twice the horizon with a dilatation), so "
+      "that balls would contain points without data; widen");
   expect_refused(with(on_cube, {{"Study/h", "0.5, 0.25"}}), "has the 48 cells of the level before");
   expect_refused(with(on_cube, {{"Study/h", "0.01"}}), "in the same unit? Scale the mesh");
   expect_refused({{"Domain/mesh", "missing.msh"}}, "cannot be read; check its name and folder");
