@@ -18,27 +18,28 @@ namespace dealii
 
 namespace plumbline::reference
 {
-  /// A face where the factors of bonds differ on both sides. [reaches]
+  /// A face on whose two sides the factors of bonds differ. [reaches]
   struct Interface
   {
     PairFace face;
     dealii::Tensor<1, 3> normal;
-    std::array<std::optional<std::size_t>, 2>
-        cells; ///< of the mesh: the normal points to the second
+    /// Of the mesh, on both sides; the normal points to the second. Nothing: the outside.
+    std::array<std::optional<std::size_t>, 2> cells;
   };
 
-  /// Of the linear functions λ_a of a cell's corners.
+  /// Entries [a][b] of the linear functions λ_a and λ_b of a cell's corners.
   template <class Value>
   using CornerMatrix = std::array<std::array<Value, 4>, 4>;
 
-  /// matrix -= ∫ λ_a λ_b e over a cell, where e is linear and ∫ λ_a e = sums[a].
+  /// matrix -= ∫ λ_a λ_b e over a cell, where e is the linear function with ∫ λ_a e = sums[a].
   template <class Value>
   void subtract_linear_part(double volume, const std::array<Value, 4> &sums,
                             CornerMatrix<Value> &matrix);
 
-  /// What the bonds of a point have less, by their factors, than if all had that of the point's
-  /// cell: ∫ a γ dy - a_TT m₀, the fluxes of layers on the interfaces, see LayerFlux. Lengths are
-  /// in reaches.
+  /// The deficit ∫ a(x, y) γ dy - a_TT m₀ at the points x of a cell T: the integral of the kernel
+  /// over the bonds of x with their factors a, less the integral with the factor a_TT for all
+  /// bonds. It is the sum of the fluxes of layers on the interfaces, see LayerFlux. Lengths are in
+  /// units of the kernel's reach.
   template <class Value>
   class BondDeficit
   {
@@ -53,8 +54,9 @@ namespace plumbline::reference
       double open = 0; ///< the last change, if it is above the tolerance at the finest level
     };
 
-    /// ∫ λ_a λ_b times it over a cell, by rules that are refined until the last change is below a
-    /// tolerance, but for its linear part. Thread safe.
+    /// The integrals of λ_a λ_b times the deficit over a cell. Quadrature is refined until the last
+    /// change is below a tolerance. Not counted is the change that a linear function causes: the
+    /// caller knows that part, see subtract_linear_part(). Thread safe.
     Integrals integrals(std::size_t mesh_cell, const std::array<dealii::Point<3>, 4> &corners,
                         double tolerance) const;
 

@@ -6,8 +6,8 @@
 
 namespace plumbline::reference
 {
-  /// Factors of the bonds between cells of a mesh, by their groups. Those to the outside of the
-  /// mesh have the factor 0 where the surface is free.
+  /// Factors that multiply the kernel of bonds between cells of a mesh, by the groups of the cells.
+  /// If the surface is free, bonds to the outside of the mesh have the factor 0.
   class BondFactors
   {
   public:
@@ -34,11 +34,11 @@ namespace plumbline::reference
     const std::vector<unsigned int> &group_;
   };
 
-  /// From the entries of a homogeneous material in all of space to those of bonds with factors. For
-  /// constants on cells the entry of two cells is an integral over the bonds between them, which
-  /// has one factor; the diagonal is what makes rows annihilate constants, so that bonds to the
-  /// outside of the mesh are left out. As exact as the rows are, and symmetric to the last bit if
-  /// they are.
+  /// Change rows of a homogeneous material in unbounded space to rows of bonds with factors, for
+  /// functions that are constant on cells. The entry of two cells is an integral over the bonds
+  /// between them, which all have the same factor. The diagonal is set so that rows annihilate
+  /// constants, which leaves out bonds to the outside of the mesh. The result is as exact as the
+  /// given rows, and symmetric to the last bit if they are.
   /// @param rows  of free cells by all cells, with n_components for each
   void set_factors_of_cells(const BondFactors &factors, const TetrahedralSpace &space,
                             unsigned int n_components, algebra::CsrMatrix &rows);

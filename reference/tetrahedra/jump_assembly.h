@@ -16,21 +16,24 @@ namespace plumbline::reference
   ///                 Ψ'/r
   ///                 + n_F·n_G ∬_{F×G} [φ_i](x) [φ_j](y) Λ ),
   /// where φ_i jumps across F at x, φ_j across G at y, and h_F is the height over F along n_F, as
-  /// n_F·∇Ψ(x - y) = -h_F(y) Ψ'/r. Integrals of Ψ are those of continuous functions, exact to
-  /// round-off; the others, which JumpPairs gives, are multiplied by jumps of values, so that rows
-  /// annihilate linear fields, and are those of continuous functions where sums of shape functions
-  /// are continuous, whatever the quadrature.
+  /// n_F·∇Ψ(x - y) = -h_F(y) Ψ'/r. The integrals of Ψ are those of continuous functions, exact to
+  /// round-off. JumpPairs gives the others, which are multiplied by jumps of values. So, whatever
+  /// the quadrature, rows annihilate linear fields, and sums of shape functions that are continuous
+  /// have the entries of continuous functions.
   ///
-  /// Bond tensors and dilatations: in place of ∬ Λ ∇φ_i·∇φ_j the same sums of q I and of w with the
-  /// components of both gradients, see SolidKernel; made symmetric in the components.
+  /// For bond tensors and dilatations, ∬ Λ ∇φ_i·∇φ_j is replaced by
+  ///   ∬ (Λ_q ∇φ_i·∇φ_j I + Λ_w ∇φ_i⊗∇φ_j),
+  /// see SolidKernel, with the same sums for each term; made symmetric in the components.
   ///
-  /// Factors a of bonds, constant in each pair of cells, are those of the entries of two cells T
-  /// and T', as shape functions are those of cells. With the bonds of a point in T,
+  /// Bonds may have factors a, constant for each pair of cells. A shape function is supported in
+  /// one cell, so the entries of two cells T and T' are multiplied by a_TT'. For two functions of
+  /// one cell T,
   ///   ½∬aγ (φ_i(x) - φ_i(y)) (φ_j(x) - φ_j(y)) = a_TT ½∬γ (…) (…)
-  ///     + ∫_T φ_i φ_j (∫aγ dy - a_TT m₀) for φ_i, φ_j of one cell,
-  /// of which the last factor is a sum over the interfaces of groups and the free surface, see
-  /// LayerFlux, and the integral is by quadrature to the tolerance of jumps. The diagonal then
-  /// makes rows annihilate constants.
+  ///     + ∫_T φ_i φ_j (∫aγ dy - a_TT m₀),
+  /// where the expression in parentheses is a sum over the interfaces of groups and the free
+  /// surface, see BondDeficit, and its integral is by quadrature to the tolerance
+  /// FaceRule::of_jumps. The linear part of the expression is then corrected so that rows
+  /// annihilate constants.
   /// @pre  a space of such functions; n_rows is a multiple of 4
   algebra::CsrMatrix
   assemble_with_jumps(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
@@ -38,15 +41,16 @@ namespace plumbline::reference
                       const std::optional<physics::Dilatation<3>> &dilatation = {},
                       const BondFactors *factors = nullptr);
 
-  /// The same for functions that are continuous, but for the faces where factors differ: only there
-  /// values jump. Entries of single cells mean nothing, see joined().
+  /// The same for continuous functions, as rows of their parts on single cells. The jump terms of
+  /// the parts cancel, except on faces where factors differ, and are left out elsewhere. So only
+  /// the sums that joined() makes of these rows have a meaning.
   /// @param space  of discontinuous linear functions
   algebra::CsrMatrix assemble_interfaces(const TetrahedralSpace &space,
                                          const physics::Kernel<3> &kernel, std::size_t n_rows,
                                          const FaceRule &rule, FaceRuleUse *use,
                                          const BondFactors &factors);
 
-  /// Rows of continuous functions: sums over the cells about a vertex. Symmetric to round-off.
+  /// Rows of continuous functions: sums over the cells around each vertex. Symmetric to round-off.
   /// @param rows  of the free unknowns of the broken space
   algebra::CsrMatrix joined(const TetrahedralSpace &continuous, const TetrahedralSpace &broken,
                             unsigned int n_components, const algebra::CsrMatrix &rows);
