@@ -8,7 +8,7 @@
 
 namespace plumbline::reference
 {
-  /// How integrals over pairs of faces are made.
+  /// How integrals over pairs of faces are computed.
   struct FaceRule
   {
     static FaceRule exact() { return {}; } ///< see ExactPairs
@@ -21,8 +21,8 @@ namespace plumbline::reference
     }
 
     bool is_exact = true;
-    /// What a pair's round-off may be, relative to m₀ times a volume, which is like the diagonal:
-    /// thousands of pairs, whose round-off is random, add up to an entry.
+    /// Largest round-off of a pair, relative to m₀ times a volume, which has the size of a diagonal
+    /// entry. Thousands of pairs, whose round-off is random, add up to an entry.
     double tolerance = 1.5e-14;
     unsigned int refinement = 0; ///< of the quadrature
     /// Tolerance of the quadrature for jumps, per pair, in the unit of `tolerance`.
@@ -32,18 +32,18 @@ namespace plumbline::reference
     double spacing = 0;
   };
 
-  /// How they were made, exactly.
+  /// How they were computed, and with which errors.
   struct FaceRuleUse
   {
-    /// Integrals over pairs of faces in double, in long double, with 124 and with 237 bits; of
-    /// bond tensors two for each pair.
+    /// Number of integrals over pairs of faces in double, in long double, with 124 and with 237
+    /// bits; for bond tensors two for each pair.
     std::array<std::size_t, 4> n_pairs{};
     /// The largest bound of the round-off of one pair, as part of an entry, relative to the least
     /// diagonal entry.
     double error = 0;
     /// Pairs of faces whose quadrature for jumps did not reach its tolerance at the finest level.
     std::size_t n_open = 0;
-    /// What their last changes by refinement may add up to in the entries of one face, relative to
+    /// Bound of the sum of their last changes by refinement in the entries of one face, relative to
     /// the least diagonal entry. Infinite where an integral is not finite.
     double open = 0;
   };
@@ -55,8 +55,8 @@ namespace plumbline::reference
   /// quadrature over pairs of faces; all else is exact, so that rows annihilate constants, and
   /// those of continuous functions linear fields, to round-off. Symmetric to the last bit. Linear
   /// functions that are not continuous: assemble_with_jumps().
-  /// @pre  rows of unknowns whose supports are the reach of the kernel (with a dilatation two
-  /// horizons) or more from the outside of the mesh; a kernel that FacePotential takes
+  /// @pre  the supports of these unknowns are at least the reach of the kernel (with a dilatation
+  /// two horizons) away from the outside of the mesh; FacePotential takes the kernel
   algebra::CsrMatrix
   assemble_by_faces(const TetrahedralSpace &space, const physics::Kernel<3> &kernel,
                     std::size_t n_rows, const FaceRule &rule, FaceRuleUse *use = nullptr,

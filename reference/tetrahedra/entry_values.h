@@ -4,7 +4,8 @@
 
 #include <array>
 
-// Entries of two unknowns on tetrahedra: a double, or of bond tensors all components c and d.
+// The entry of two unknowns on tetrahedra: a double for scalar kernels, and for bond tensors the
+// tensor of all components c and d.
 namespace plumbline::reference
 {
   using SolidValue = dealii::Tensor<2, 3>;
@@ -32,7 +33,7 @@ namespace plumbline::reference
     return value[c][d];
   }
 
-  /// Symmetric in the components, as exact entries are.
+  /// Make a value symmetric in the components, as exact entries are.
   inline void symmetrise(double &) {}
   inline void symmetrise(SolidValue &value)
   {
@@ -40,7 +41,9 @@ namespace plumbline::reference
     value = half * (value + transpose(value));
   }
 
-  /// sum += what the parts of a kernel, see SolidKernel, are multiplied by for ∇φ_i and ∇φ_j.
+  /// sum += parts[0] i·j for a scalar kernel, parts[0] i·j I + parts[1] i⊗j for a bond tensor.
+  /// @param parts  an integral of each part of a kernel, see SolidKernel
+  /// @param i, j   gradients, or normals multiplied by jumps
   inline void add_product(double &sum, const std::array<double, 2> &parts,
                           const dealii::Tensor<1, 3> &i, const dealii::Tensor<1, 3> &j)
   {

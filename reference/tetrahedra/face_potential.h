@@ -8,8 +8,8 @@
 
 namespace plumbline::reference
 {
-  /// A radial profile that FacePotential turns into a potential. Lengths are in reaches, beyond
-  /// which it is 0.
+  /// A radial profile that FacePotential turns into a potential. Lengths are in units of the reach,
+  /// beyond which the profile is 0.
   struct PotentialKernel
   {
     PotentialKernel() = default;
@@ -43,7 +43,7 @@ namespace plumbline::reference
 
     FacePotential(const PotentialKernel &kernel, Kind kind);
 
-    /// Whether the parts of a bond tensor, see SolidKernel, are sums of powers as it is.
+    /// Whether the parts of a bond tensor with this profile are sums of powers, see SolidKernel.
     static bool has_power_parts(const physics::RadialProfile &profile);
 
     /// Degrees of polynomials equal to series, see PotentialTerms.

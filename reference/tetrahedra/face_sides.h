@@ -9,7 +9,8 @@
 
 namespace plumbline::reference
 {
-  /// A face that integrals from points are over, by its sides k -> k + 1.
+  /// A face with its sides, from vertex k to vertex k + 1, for integrals over the face of functions
+  /// of the distance from a point.
   class FaceSides
   {
   public:
@@ -30,16 +31,16 @@ namespace plumbline::reference
   };
   const LineRule &line_rule(unsigned int n_points);
 
-  /// Points along a side for functions of τ and of r = √(square + τ²).
+  /// Quadrature points along a side for functions of τ and of r = √(square + τ²).
   struct LinePoints
   {
     static constexpr unsigned int most = LineRule::most_points;
 
-    /// @param extra  points that the functions take besides
+    /// @param extra  additional points that the functions need
     LinePoints(double from, double to, double square, unsigned int extra)
     {
-      // r is singular at τ = ± iη; far from there by τ, else by τ = η sinh s, of which it is
-      // analytic where |Im s| < π/2: at most 195 points for |τ| < 1
+      // r is singular at τ = ± iη, η = √square. Far from there: Gauss points in τ. Else: in s,
+      // τ = η sinh s, of which r is analytic for |Im s| < π/2; at most 195 points for |τ| < 1
       constexpr double least_axis = 1.25, least_eta = 1e-14;
       const double axis =
           (std::sqrt(from * from + square) + std::sqrt(to * to + square)) / (to - from);

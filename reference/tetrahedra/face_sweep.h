@@ -18,8 +18,8 @@
 
 namespace plumbline::reference
 {
-  /// Faces of a mesh, those that are near to each other together, by cubes a vertex or two wide,
-  /// which are the blocks. Lengths are in reaches.
+  /// Faces of a mesh in blocks of faces that are near each other: those whose centroids are in one
+  /// cube, one to three vertex spacings wide. Lengths are in units of the kernel's reach.
   class SortedFaces
   {
   public:
@@ -29,13 +29,13 @@ namespace plumbline::reference
     SortedFaces(const TetrahedralMesh &mesh, const std::vector<Vertices> &faces, double reach);
 
     std::size_t size() const { return order_.size(); }
-    /// The number that each was given with.
+    /// For each sorted face, its place among the faces that were given.
     const std::vector<std::size_t> &order() const { return order_; }
     const NumberedFace &numbered(std::size_t face) const { return numbered_[face]; }
-    /// First faces of blocks, and the end.
+    /// The first face of each block, and the number of faces.
     const std::vector<std::size_t> &blocks() const { return blocks_; }
-    double volume_of_vertex() const { return of_vertex_; } ///< the mean
-    double volume_of_cell() const { return of_cell_; }     ///< the mean
+    double volume_of_vertex() const { return of_vertex_; } ///< mean volume of the mesh per vertex
+    double volume_of_cell() const { return of_cell_; }     ///< and per cell
     std::vector<geometry::Cuboid> boxes() const;
 
   private:
@@ -47,13 +47,13 @@ namespace plumbline::reference
     std::vector<NumberedFace> numbered_;
   };
 
-  /// ∬_{F×G} of one potential, of a face F and those near it.
+  /// The integrals ∬_{F×G} of one potential over a face F and each of the faces G near it.
   class FaceIntegrals
   {
   public:
     /// @param kernel  a part of a SolidKernel
-    /// @param largest_jump  of each face
-    /// @param size_of_pair  by which round-off is measured [1]
+    /// @param largest_jump  of each face: the largest number that multiplies its integrals
+    /// @param size_of_pair  the unit of FaceRule::tolerance [1]
     /// @param spacing  of a lattice, or 0 [reaches]
     FaceIntegrals(const PotentialKernel &kernel, FacePotential::Kind kind, const SortedFaces &faces,
                   const std::vector<double> &largest_jump, const FaceRule &rule, double spacing,
@@ -68,18 +68,18 @@ namespace plumbline::reference
 
     double diffusion() const { return potential_.diffusion(); }
 
-    /// What a thread needs for itself.
+    /// One for each thread.
     struct Workspace
     {
-      std::vector<double> values; ///< of a face and those near it
+      std::vector<double> values; ///< of a face and each of those near it
       ExactPairs::Shared shared;
-      std::vector<const NumberedFace *> others; ///< of them, those that are not known
-      std::vector<std::size_t> places;          ///< of those there
+      std::vector<const NumberedFace *> others; ///< near faces whose integrals are not yet known
+      std::vector<std::size_t> places;          ///< of these in `values`
       std::vector<ExactPairs::Integral> exact;  ///< their integrals
       FaceRuleUse use;
     };
 
-    /// For pairs of some faces, the first of each pair, with others.
+    /// Prepare shared values for pairs of one of the first faces and one of the second.
     void start(const std::vector<const NumberedFace *> &first,
                const std::vector<const NumberedFace *> &second, Workspace &work) const
     {
@@ -87,7 +87,7 @@ namespace plumbline::reference
         work.shared.start(first, second);
     }
 
-    /// work.values = those of a face and those near it.
+    /// work.values[k] = the integral of the face and near[k].
     void find(std::size_t face, const std::vector<unsigned int> &near, Workspace &work) const
     {
       const NumberedFace &f = faces_.numbered(face);
@@ -133,7 +133,7 @@ namespace plumbline::reference
       return places.has_value();
     }
 
-    /// By the places alone, so that all threads have the same.
+    /// It depends on the places alone, so that all threads have the same value.
     ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
     {
       {
@@ -156,40 +156,41 @@ namespace plumbline::reference
     std::optional<FacePairs> by_rule_;
     std::optional<ExactPairs> exact_;
     mutable std::map<FacePlaces, ExactPairs::Integral> known_;
-    mutable std::mutex mutex_; ///< of what is known
+    mutable std::mutex mutex_; ///< guards known_
   };
 
-  /// Integrals of the parts of a kernel over pairs of faces, each pair once, block by block: a face
-  /// F with all faces G about it that are not before it. Thread safe.
+  /// Integrals of the parts of a kernel over pairs of faces, each pair once, block by block: for
+  /// each face F those with all faces G within reach that do not come before F. Thread safe.
   class FaceSweep
   {
   public:
     /// @param kind          of the potential
-    /// @param size_of_pair  by which round-off is measured: what m₀ is multiplied by in a diagonal
-    /// entry, divided by jumps [reach^3]
-    /// @param largest_jump  of each face, sorted
-    /// @param is_needed     of each face: one of a pair must be
+    /// @param size_of_pair  m₀ times it has the size of a diagonal entry, divided by the jumps of
+    /// both faces: the unit of FaceRule::tolerance
+    /// @param largest_jump  of each sorted face
+    /// @param is_needed     of each sorted face; pairs of two faces that are not needed are left
+    /// out
     FaceSweep(const SortedFaces &faces, const SolidKernel &kernel, FacePotential::Kind kind,
               const FaceRule &rule, double size_of_pair, std::vector<double> largest_jump,
               std::vector<char> is_needed);
 
     std::size_t n_parts() const { return integrals_.size(); }
-    /// Of each part; 0 where there is none.
+    /// κ of each part; 0 for a second part that does not exist.
     std::array<double, 2> diffusion() const;
     bool is_needed(std::size_t face) const { return is_needed_[face] != 0; }
 
-    /// What a thread needs for itself.
+    /// One for each thread.
     struct Workspace
     {
       std::vector<unsigned int> near;
       std::array<FaceIntegrals::Workspace, 2> of_parts;
 
-      /// Of face number k of those near.
+      /// The integral of each part over the current face and the k-th of those near it.
       std::array<double, 2> values(std::size_t k) const;
       void add_use(FaceRuleUse &total) const; ///< of pairs
     };
 
-    /// Of a face of a block and those near it, whose integrals the workspace has.
+    /// Called for each face of a block; the workspace has its integrals with those near it.
     using Action = std::function<void(std::size_t face, const std::vector<unsigned int> &near)>;
     void for_each_face(std::size_t block, Workspace &work, const Action &action) const;
 

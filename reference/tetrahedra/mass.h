@@ -5,7 +5,7 @@
 
 namespace plumbline::reference
 {
-  /// ∫ φ_i φ_j of the free unknowns by all unknowns, components interleaved. Exact on tetrahedra
-  /// and, of trilinear functions, on parallelepipeds.
+  /// Consistent mass matrix ∫ φ_i φ_j: rows of the free unknowns, columns of all unknowns,
+  /// components interleaved. Exact on tetrahedra, and for trilinear functions on parallelepipeds.
   algebra::CsrMatrix mass_rows(const TetrahedralSpace &space, unsigned int n_components);
 } // namespace plumbline::reference

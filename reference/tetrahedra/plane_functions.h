@@ -59,8 +59,8 @@ namespace plumbline::reference
 
     /// Gauss points that series take besides those of powers, on a piece of this length.
     unsigned int extra_points(double length) const;
-    /// The round-off of compact H, in units of Real's, where it is not that of a value: series, and
-    /// powers that cancel, have that of their largest terms.
+    /// The round-off of compact H, relative to that of Real, where it exceeds that of the value:
+    /// series, and powers that cancel, have the round-off of their largest terms. Else 0.
     Real size_of_compact(const Real &r) const;
     /// The same of κ ∫ H / (κ² + τ²) dτ, r² = κ² + τ² + height.
     Real size_of_piece(const Real &kappa, const Real &from, const Real &to,
@@ -86,7 +86,7 @@ namespace plumbline::reference
     RadialPolynomial<Real> compact_;
     Real moments_[3] = {};
     std::vector<unsigned int> degrees_;
-    Real compact_size_ = 0, growth_ = 1; ///< sizes of values say all if it is 0
+    Real compact_size_ = 0, growth_ = 1; ///< size 0: round-off is that of the values
   };
 
   template <class Real>

@@ -26,22 +26,22 @@ namespace plumbline::reference
     Real series_at(const Real &r) const;
   };
 
-  /// t ρ(t) of a radial profile on [0, 1] as a Chebyshev series: the one table that stands for a
-  /// kernel that is no sum of few powers. All that follows from it is exact.
+  /// t ρ(t) of a radial profile on [0, 1] as a Chebyshev series: the only approximation of a kernel
+  /// that is not a sum of few powers. All functions that are derived from it are exact.
   struct ProfileSeries
   {
     explicit ProfileSeries(const physics::RadialProfile &profile);
 
     std::vector<double> coefficients;
-    /// What ∫ t |t ρ - series| dt may be, relative to ∫ t² ρ: of the kernel's integral over its
-    /// ball, by values between the points of interpolation.
+    /// Bound in practice of ∫ t |t ρ - series| dt relative to ∫ t² ρ dt, which is the kernel's
+    /// integral over its ball up to a constant; by values between the points of interpolation.
     double error = 0;
   };
 
   /// The parts of a bond tensor γ ê⊗ê as such series: t q, q = ∫_t^1 γ/s ds, and t w, w = γ - 3 q,
-  /// see SolidKernel. Where γ has a constant at 0 they have a term t ln t, whose coefficients are
-  /// known and fade out smoothly before the last: its moments ∫ t^n are wrong by 3e-13 (n = 1) and
-  /// 1e-16 (n > 1).
+  /// see SolidKernel. If γ has a constant term at 0, both have a term t ln t, whose coefficients
+  /// are known in closed form and are reduced smoothly towards the last one that is used. The
+  /// moments ∫ t^n of this term have errors of 3e-13 (n = 1) and 1e-16 (n > 1).
   struct TensorSeries
   {
     explicit TensorSeries(const ProfileSeries &profile);
