@@ -27,7 +27,7 @@ namespace plumbline::reference
     template <class Value>
     using Matrix = CornerMatrix<Value>;
 
-    /// Entries of the unknowns of two cells.
+    /// Entries of the unknowns of two cells, one of the row and one of the column.
     template <class Value>
     struct Block
     {
@@ -71,12 +71,12 @@ namespace plumbline::reference
       std::size_t mesh_cell = 0;          ///< and in the mesh
       double sign = 0;                    ///< 1 where the normal points to, -1 on the other side
       std::array<int, n_corners> place{}; ///< of corners among the face's vertices, or -1
-      std::array<Tensor<1, 3>, n_corners> slopes{}; ///< ∇λ [1 / horizon]
+      std::array<Tensor<1, 3>, n_corners> slopes{}; ///< ∇λ [1 / reach]
     };
 
     struct JumpFace
     {
-      PairFace face; ///< [horizons]
+      PairFace face; ///< [reaches]
       Tensor<1, 3> normal;
       boost::container::static_vector<JumpSide, 2> sides;
       double steepest = 0; ///< the largest |∇λ|
@@ -172,7 +172,7 @@ namespace plumbline::reference
       return block;
     }
 
-    /// Sums over the faces G about a face F, each pair once: the matrix is the sum and its
+    /// Sums over the faces G about a face F, each pair once: the matrix is their sum plus its
     /// transpose.
     template <class Value>
     class JumpRows
@@ -448,8 +448,9 @@ namespace plumbline::reference
       return interfaces;
     }
 
-    /// Bonds get their factors. Rows annihilate constants: the linear part of what a cell's bonds
-    /// have less is known from the entries of two cells, and only the rest is by quadrature.
+    /// Multiply bonds by their factors. Rows annihilate constants, so that the linear part of the
+    /// deficit of a cell, see BondDeficit, is known from the entries of two cells. Only the rest is
+    /// by quadrature.
     template <class Value>
     void set_factors(const TetrahedralSpace &space, const SolidKernel &kernel,
                      const JumpRows<Value> &of_face, const BondFactors &factors, double of_jumps,
