@@ -95,8 +95,8 @@ namespace plumbline::scene
   {
     std::vector<uq::SampleRule> rules; ///< to be compared, the leading one first; empty: none
     SampledAnalysis analysis = SampledAnalysis::of_scene;
-    /// Of each rule, or of all alike, of each set of samples: points a variable (tensor), level
-    /// (Smolyak), or samples.
+    /// Size of each set of samples: points per variable (tensor), level (Smolyak), or number of
+    /// samples. One list for each rule, or one for all.
     std::vector<std::vector<unsigned int>> counts;
     /// How many modes of the field vary, few to many, each with every count; empty: all.
     std::vector<unsigned int> modes;

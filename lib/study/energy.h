@@ -35,7 +35,8 @@ namespace plumbline::study
   std::optional<double> energy_norm(const method::LinearEquations<dim> &of,
                                     const std::vector<double> &e);
 
-  /// The norm "energy" is among these: ranks do not share what it is of.
+  /// Whether the norm "energy" is among these. It needs a whole solution on one rank, so that ranks
+  /// do not share a problem with this norm.
   inline bool has_energy(const std::vector<scene::Norm> &norms)
   {
     return std::find(norms.begin(), norms.end(), scene::Norm::energy) != norms.end();

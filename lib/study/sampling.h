@@ -33,11 +33,12 @@ namespace plumbline::study
   struct SamplingPlan
   {
     std::vector<std::vector<double>> values; ///< of the variables, shape (n_samples, n_variables)
-    /// Rule by rule, of each few modes to many, of each few samples to many.
+    /// Ordered by rule, as in Sampling/rule, then by modes and by samples, both increasing.
     std::vector<SampleSet> sets;
 
-    /// The last set of the rule that a set is of; of the first rule it is the leading set: pictures
-    /// and tables of samples show it, and the target own finest level is its.
+    /// Number of the last set that has the same rule as a given set. The last set of the first rule
+    /// is the leading set: pictures and tables of samples show it, and its solution at the finest
+    /// level is the target "own finest level".
     /// @pre  set < sets.size()
     std::size_t last_like(std::size_t set) const;
 
@@ -64,9 +65,9 @@ namespace plumbline::study
     std::optional<double> deviation_size; ///< nothing where a variance is negative: it has no root
     double negative_part = 0;             ///< of Ω, where it is
     double standard_error = 0;            ///< of the mean of independent samples
-    /// Against the exact field's, or, with the target own finest level, the leading set's there,
-    /// whose deviations of averages over smaller cells are averaged. Of deviations none where a
-    /// variance is negative, of this set or of the one that it is held against.
+    /// Against the exact field's, or, with the target "own finest level", against the leading set's
+    /// at that level, whose deviations of averages over smaller cells are averaged. There is no
+    /// deviation_error where a variance is negative, of this set or of the target.
     std::optional<double> mean_error, deviation_error;
     bool is_target = false; ///< this is that set, which has no errors
     // of the set's interpolant u^Q, see interpolation_error.h
@@ -94,8 +95,9 @@ namespace plumbline::study
     /// Of each quantity for these, or nothing where one has none.
     std::map<std::string, std::vector<std::optional<double>>> values;
 
-    /// The last set of a rule, or nothing where none is of it; of the first rule the leading set.
+    /// The last set of a rule; null if there is none.
     const SetStatistics *last_of(uq::SampleRule rule) const;
+    /// The last set of the first rule; null if there are no sets.
     const SetStatistics *leading() const;
   };
 
@@ -108,8 +110,8 @@ namespace plumbline::study
 
   /// The pair of level and set that most cheaply brings the error of the mean below a target and
   /// keeps it there: with more samples and modes, and at finer levels. Of pairs that are as cheap
-  /// (see cheapest.h) the one with fewer samples, then fewer modes, then the larger h. Of each
-  /// rule.
+  /// (see cheapest.h) the one with fewer samples, then fewer modes, then the larger h. One for
+  /// each rule.
   struct CheapestPair
   {
     std::string method, problem, series;
@@ -132,17 +134,17 @@ namespace plumbline::study
   };
 
   /// How many samples each rule needs for an error that all of them reach: the largest of the
-  /// errors of their last sets. Of a method at its finest level, with all modes.
+  /// errors of their last sets. For a method at its finest level, with all modes.
   struct RuleComparison
   {
     std::string method, problem, series;
     double h = 0;         ///< [length]
-    std::string quantity; ///< that the error is of: mean, deviation
-    double error = 0;
+    std::string quantity; ///< whose error is compared: "mean" or "deviation"
+    double error = 0;     ///< that all rules reach
     struct Need
     {
       uq::SampleRule rule = uq::SampleRule::none;
-      /// Of the smallest set from which on errors exceed that one by a tenth at most.
+      /// Of the smallest set from which on errors exceed `error` by at most a tenth.
       std::size_t n_samples = 0;
     };
     std::vector<Need> needs; ///< few to many
@@ -180,8 +182,9 @@ namespace plumbline::study
   std::vector<std::string> sampling_faults(const SamplingResults &results,
                                            const scene::ExpectedSection &expected);
 
-  /// What is known of a case over its leading set by the name that tables give it: "error of the
-  /// mean", "size of the mean" (L2, and so on), "mean of ...", "deviation of ..."; "error of the
-  /// mean by Monte Carlo", over the last set of that rule; nothing where it is not.
+  /// A quantity of a case over its leading set, by the name that tables give it: "error of the
+  /// mean", "size of the mean" (L2, and so on), "mean of ...", "deviation of ...". With the name of
+  /// a rule, "error of the mean by Monte Carlo", it is over the last set of that rule. Nothing
+  /// where it is not known.
   std::optional<double> sampled_quantity(const CaseStatistics &one, const std::string &name);
 } // namespace plumbline::study

@@ -4,14 +4,15 @@
 
 namespace plumbline::study
 {
-  /// Of each method, level and rule, and of each number of modes, what limits the error of the
-  /// mean: samples, or what they cannot mend. A set says as much as the largest one where its error
-  /// is within a tenth of that one's, or within rounding. None of fewer than two sets with errors,
-  /// nor of a level that errors are held against, where samples are all there is.
+  /// For each method, level, rule and number of modes: whether the error of the mean is limited by
+  /// the number of samples, or by errors that more samples do not reduce. A set is as accurate as
+  /// the largest one if its error is within a tenth of that one's, or within rounding. There is no
+  /// result with fewer than two sets with errors, nor for the level that is the target, whose
+  /// errors are those of sampling alone.
   std::vector<SamplingBalance> find_balance(const std::vector<CaseStatistics> &cases);
 
   /// One sentence.
-  /// @param has_modes  how many modes vary differs from set to set
+  /// @param has_modes  the number of modes differs from set to set, and is named
   /// @param has_rules  so does the rule
   std::string words_of(const SamplingBalance &balance, bool has_modes, bool has_rules = false);
 } // namespace plumbline::study
