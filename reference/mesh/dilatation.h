@@ -15,7 +15,7 @@ namespace plumbline::reference
     geometry::Backend backend = geometry::Backend::fast;
     Correction correction = Correction::none;
     std::vector<geometry::Cut> cracks = {}; ///< see `DilatationRow`
-    std::vector<geometry::Box> gaps = {};   ///< beyond free surfaces: no cells of the mesh
+    std::vector<geometry::Box> gaps = {};   ///< regions beyond free surfaces, without cells
   };
 
   /// What the dilatation adds to the Galerkin matrix of a state-based solid's bonds,
@@ -29,8 +29,9 @@ namespace plumbline::reference
   /// of that or less; degree 0 loses a factor 8 a refinement, 3e-3 at first. Cost: .15 ms for each
   /// outer point on squares of degree 1, four of them a cell at first; once for all cells whose
   /// surroundings are translations of each other, whatever their materials, if these are constant
-  /// in each cell. What is left then is to add to the matrix. Within δ of cracks and gaps every
-  /// outer point costs, and the outer rule crosses the kinks that shadows of their ends make.
+  /// in each cell. What is left then is to add to the matrix. Within δ of cracks and gaps this
+  /// holds for no two cells, and the integrand of the outer rule has kinks where the end of a crack
+  /// limits what is visible.
   /// @param space  its mesh has a collar 2δ wide, or ends at a free boundary
   /// @return  rows of the free unknowns, columns of all, as MeshMatrix::rows
   /// Sources: Fan et al. 2022, eqs. (2.5), (3.21); with normalised θ and degree 0 on squares Pflug,

@@ -7,23 +7,23 @@
 
 namespace plumbline::reference
 {
-  /// Where M ξ stands for ξ beside cracks and surfaces, M = [∫ K ξ⊗ξ dξ]^-1 over what is left of
-  /// the ball: linear fields keep their divergence. Source: Fan et al. 2022,
+  /// Where ξ is replaced by M ξ near cracks and surfaces, with M = [∫ K ξ⊗ξ dξ]^-1 over the visible
+  /// part of the ball, so that linear fields keep their divergence. Source: Fan et al. 2022,
   /// doi:10.1016/j.cma.2022.115340, eq. (3.21).
   enum class Correction
   {
     none,
-    dilatation, ///< in θ alone: the operator of the nodes
-    energy      ///< in E, too: where f is symmetric ∫ θ_u E_v is, and has an energy
+    dilatation, ///< in θ alone, as meshfree rules with the surface terms `none` have it
+    energy      ///< in θ and E: if f is symmetric, so is ∫ θ_u E_v, which then has an energy
   };
 
   /// At a point x of a mesh, as rows of numbers that multiply the unknowns of vector fields,
   ///   θ_u(x) = ∫ K ξ·(u(x+ξ) - u(x)) dξ  and  E_v(x) = ∫ f(x, x+ξ) K ξ·(v(x+ξ) - v(x)) dξ
   /// over the part of ball(x) that the mesh covers: few points on whole cells; on those that the
   /// circle cuts a rule for the curved piece or, for influence functions that are no polynomials
-  /// and near x, polar about x. With cracks both are over what is seen from x.
-  /// Accuracy: constants give 0 and, where the ball is covered or `Correction` is not none, linear
-  /// fields their divergence to 1e-13. Not thread safe: give each thread its own copy.
+  /// and near x, polar about x. With cracks, both integrals are over the part that is visible from
+  /// x. Accuracy: constants give 0 and, where the ball is covered or `Correction` is not none,
+  /// linear fields their divergence to 1e-13. Not thread safe: give each thread its own copy.
   class DilatationRow
   {
   public:
@@ -45,13 +45,13 @@ namespace plumbline::reference
       return dilatation_.factor(materials_[cell], materials_[inner]);
     }
 
-    /// ∫Kξφ over ball(x) ∩ cell, shape (n_shapes, 2), until the next call. Cracks do not count.
+    /// ∫Kξφ over ball(x) ∩ cell, shape (n_shapes, 2), until the next call. Cracks are ignored.
     const std::vector<double> &integrate(const Point<2> &x, std::size_t inner);
 
     /// @param cell, unit  where x is
     /// @param near   cells, among them all in reach of x
-    /// @param known  of each of them what `integrate` gives, where nothing is to be corrected;
-    /// empty: not known
+    /// @param known  what `integrate` gives for each of them, if nothing is corrected; empty: not
+    /// known
     /// @param slot   of each dof of these in the rows
     /// @param theta, test  rows of θ and E, shape (n_slots, 2), overwritten
     void evaluate(std::size_t cell, const Point<2> &unit, const std::vector<unsigned int> &near,
@@ -82,7 +82,7 @@ namespace plumbline::reference
     physics::Lame own_{};              ///< the material at x
     std::vector<double> theta_, test_; ///< ∫Kξφ, ∫fKξφ of a cell, shape (n_shapes, 2); the latter
                                        ///< where materials change inside of cells
-    dealii::Tensor<2, 2> moment_; ///< ∫Kξ⊗ξ, to correct
+    dealii::Tensor<2, 2> moment_; ///< ∫Kξ⊗ξ, for the correction
     std::vector<geometry::Cut> between_;
     std::vector<geometry::Polygon> seen_;
     std::vector<double> phi_;

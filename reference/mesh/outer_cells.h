@@ -17,21 +17,21 @@ namespace plumbline::reference
     };
 
     unsigned int cell = 0;
-    bool is_cut = false;            ///< a crack or a gap is near
+    bool is_cut = false;            ///< a crack or a gap is within the horizon
     std::vector<unsigned int> near; ///< cells, alike around cells that are translations
     std::vector<unsigned int> dofs; ///< of these in turn, each once
     std::vector<Run> runs;          ///< the same by number
   };
 
   /// The cells that have free dofs within the horizon, ascending.
-  /// @param gaps  beyond free surfaces
+  /// @param gaps  regions beyond free surfaces, without cells
   std::vector<OuterCell> find_outer(const MeshSpace &space, const MeshCells &cells,
                                     const Translations &translations, double horizon,
                                     const std::vector<geometry::Cut> &cracks,
                                     const std::vector<geometry::Box> &gaps);
 
-  /// Of each outer cell the first one whose surroundings are a translation of its own; those that
-  /// are cut are like no other.
+  /// For each outer cell the first one whose surroundings are a translation of its own. A cut cell
+  /// is alike to itself only.
   std::vector<std::size_t> find_alike(const std::vector<OuterCell> &outer,
                                       const Translations &translations);
 } // namespace plumbline::reference
