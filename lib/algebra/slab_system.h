@@ -11,11 +11,12 @@ namespace plumbline::algebra
   /// A stencil on the free nodes of a box of which each rank has a slab of planes: the counterpart
   /// of StencilSystem for one problem on many ranks. Each rank applies the stencil to its slab by
   /// the operators of one rank, with a halo of planes within reach from the ranks beside it;
-  /// distributed sine transforms precondition. Where some nodes are not free these are of the
-  /// maximal boxes of free nodes, each distributed over all ranks, and their sum is taken (additive
-  /// Schwarz, as on one rank). Memory and work of a rank fall as 1 / (number of ranks), except for
-  /// the halo and the mask of free nodes, as long as there are planes for all ranks. Vectors are
-  /// this rank's, shape (n_blocks, n_owned, n[1], n[0]), and vanish where nodes are not free.
+  /// the preconditioner is a distributed sine transform. If some nodes are not free, there is one
+  /// transform for each maximal box of free nodes, distributed over all ranks, and their results
+  /// are added (additive Schwarz, as on one rank). Memory and work of a rank fall as 1 / (number of
+  /// ranks), except for the halo and the mask of free nodes, as long as there are planes for all
+  /// ranks. Vectors are this rank's, shape (n_blocks, n_owned, n[1], n[0]), and vanish where nodes
+  /// are not free.
   class SlabSystem : public LinearSystem
   {
   public:

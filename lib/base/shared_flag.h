@@ -7,19 +7,19 @@
 
 namespace plumbline::base
 {
-  /// A flag that any rank sets when it likes, e.g. because it is interrupted, and that the others
-  /// find set without waiting for it: while ranks work on tasks of their own, there is nothing
-  /// collective that they could agree by.
+  /// A flag that any rank can set at any time, e.g. when it is interrupted, and that the others can
+  /// test without waiting: for ranks that work on tasks of their own, without collective calls
+  /// between these.
   class SharedFlag
   {
   public:
     explicit SharedFlag(const Communicator &ranks) : ranks_(ranks) {}
 
-    /// Whether it is set by this rank, now or before, or has been set by another one: a message to
-    /// each rank that MPI delivers as soon as it can.
+    /// Whether this rank sets the flag now or has set it, or the message of another rank that set
+    /// it has arrived. Does not wait.
     bool is_set(bool is_set_here);
 
-    /// Wait until all ranks have come here, and read what is left of messages. This rank may set
+    /// Wait until all ranks have called this, and receive the remaining messages. This rank may set
     /// the flag in the meantime.
     /// @note Collective, the last call.
     void finish(const std::function<bool()> &is_set_here);

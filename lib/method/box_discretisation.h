@@ -37,8 +37,8 @@ namespace plumbline::method
 
     std::size_t n_unknowns() const override;
 
-    /// Not where a maximal box of free nodes is a single line of nodes along z; motion() needs a
-    /// box.
+    /// Not possible if a maximal box of free nodes is a single line of nodes along z. For motion()
+    /// Ω must be a box.
     bool distribute(const base::Communicator &ranks) override;
 
     Data data(const problem::Problem<3> &problem) const override;

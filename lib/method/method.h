@@ -55,9 +55,10 @@ namespace plumbline::method
     /// What a scene in space may need of it.
     virtual Capabilities can_in_space() const { return can(); }
 
-    /// Empty if the method can do problems in space with this kernel, with a dilatation of its
-    /// profile or not, on the cells of a mesh or not, else the reason that is none of its
-    /// capabilities.
+    /// Empty if the method can do problems in space with this kernel, else the reason, if it is
+    /// none of its capabilities.
+    /// @param has_dilatation  with a dilatation whose influence function has the kernel's profile
+    /// @param is_on_mesh      on the cells of a mesh file
     virtual std::string why_not_in_space(const physics::Kernel<3> &, bool has_dilatation,
                                          bool is_on_mesh) const
     {

@@ -55,8 +55,8 @@ namespace plumbline::method
     /// No path of whole bonds joins the grips.
     virtual bool is_separated() const = 0;
 
-    /// The part of the dead loads that acts: on nodes that are not loose, in [0, 1]. Nothing: there
-    /// are no dead loads.
+    /// The part of the dead loads that acts on nodes that are not loose, in [0, 1]. Nothing if
+    /// there are no dead loads.
     virtual std::optional<double> load_left() const { return {}; }
 
     /// What was done since it was made.

@@ -39,7 +39,7 @@ namespace plumbline::meshfree
     Release break_bonds(const std::vector<std::size_t> &bonds) override;
     void restart(const std::vector<std::size_t> &broken) override;
     bool is_separated() const override;
-    /// By sums of their absolute values.
+    /// A ratio of sums of the loads' magnitudes.
     std::optional<double> load_left() const override;
     bool has_energy() const override { return !network_.surfaces; }
     const Work &work() const override { return work_; }
