@@ -74,7 +74,8 @@ namespace plumbline::reference
       for (const auto &of_corner : difference)
         for (const Value &value : of_corner)
           for (unsigned int c = 0; c < n_components_of<Value>; ++c)
-            change = std::max(change, std::abs(component(value, c, c)));
+            for (unsigned int d = 0; d < n_components_of<Value>; ++d)
+              change = std::max(change, std::abs(component(value, c, d)));
       return change;
     }
   } // namespace

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -58,7 +57,8 @@ namespace plumbline::reference
     FaceIntegrals(const PotentialKernel &kernel, FacePotential::Kind kind, const SortedFaces &faces,
                   const std::vector<double> &largest_jump, const FaceRule &rule, double spacing,
                   double size_of_pair)
-        : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind), spacing_(spacing)
+        : faces_(faces), largest_jump_(largest_jump), potential_(kernel, kind), spacing_(spacing),
+          known_(spacing)
     {
       if (rule.is_exact)
         exact_.emplace(kernel, kind, rule.tolerance * size_of_pair);
@@ -128,25 +128,14 @@ namespace plumbline::reference
                        double &value) const
     {
       const auto places = places_on_lattice(*f.face, *g.face, spacing_);
-      if (places)
-        value = noted(f, g, known(*places, work), work);
-      return places.has_value();
-    }
-
-    /// It depends on the places alone, so that all threads have the same value.
-    ExactPairs::Integral known(const FacePlaces &places, Workspace &work) const
-    {
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (const auto found = known_.find(places); found != known_.end())
-          return found->second;
-      }
-      const auto [f, g] = faces_at(places, spacing_);
-      const ExactPairs::Integral integral = (*exact_)(f, g);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (known_.try_emplace(places, integral).second)
+      if (!places)
+        return false;
+      const auto [integral, is_new] = known_.find(
+          *places, [this](const PairFace &x, const PairFace &y) { return (*exact_)(x, y); });
+      if (is_new)
         ++work.use.n_pairs[integral.level];
-      return integral;
+      value = noted(f, g, integral, work);
+      return true;
     }
 
     const SortedFaces &faces_;
@@ -155,8 +144,7 @@ namespace plumbline::reference
     double spacing_; ///< [reaches]
     std::optional<FacePairs> by_rule_;
     std::optional<ExactPairs> exact_;
-    mutable std::map<FacePlaces, ExactPairs::Integral> known_;
-    mutable std::mutex mutex_; ///< guards known_
+    TranslatedPairs<ExactPairs::Integral> known_;
   };
 
   /// Integrals of the parts of a kernel over pairs of faces, each pair once, block by block: for

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -86,7 +85,7 @@ namespace plumbline::reference
     };
 
     /// @param factors  of bonds; null: all are 1
-    std::vector<JumpFace> make_jump_faces(const TetrahedralSpace &space, double horizon,
+    std::vector<JumpFace> make_jump_faces(const TetrahedralSpace &space, double reach,
                                           const BondFactors *factors, bool is_continuous)
     {
       const TetrahedralMesh &mesh = space.mesh();
@@ -99,7 +98,7 @@ namespace plumbline::reference
         {
           PairFace::Vertices x;
           for (unsigned int v = 0; v < 3; ++v)
-            x[v] = Point<3>((mesh.vertices[side.key[v]] - mesh.vertices.front()) / horizon);
+            x[v] = Point<3>((mesh.vertices[side.key[v]] - mesh.vertices.front()) / reach);
           const Tensor<1, 3> area = cross_product_3d(x[1] - x[0], x[2] - x[0]);
           faces.push_back({PairFace(x, side.key), area / area.norm(), {}, 0, false, true});
         }
@@ -111,7 +110,7 @@ namespace plumbline::reference
         own.sign = own.slopes[side.opposite] * face.normal > 0 ? 1 : -1;
         for (unsigned int corner = 0; corner < n_corners; ++corner)
         {
-          own.slopes[corner] *= horizon;
+          own.slopes[corner] *= reach;
           face.steepest = std::max(face.steepest, own.slopes[corner].norm());
           const auto found =
               std::find(side.key.begin(), side.key.end(), mesh.cells[side.cell][corner]);
@@ -183,7 +182,7 @@ namespace plumbline::reference
           : n_needed_(n_rows / n_corners),
             faces_(make_jump_faces(space, kernel.reach, factors, is_continuous)),
             n_cells_(space.mesh().cells.size()), spacing_(rule.spacing / kernel.reach),
-            sorted_(space.mesh(), vertices_of(faces_), kernel.reach)
+            sorted_(space.mesh(), vertices_of(faces_), kernel.reach), known_(spacing_)
       {
         std::vector<JumpFace> sorted;
         std::vector<double> steepest;
@@ -326,19 +325,12 @@ namespace plumbline::reference
         return parts;
       }
 
-      /// By the places alone, so that all threads have the same.
       PartJumps known(const FacePlaces &places, Workspace &work) const
       {
-        {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          if (const auto found = known_.find(places); found != known_.end())
-            return found->second;
-        }
-        const auto [f, g] = faces_at(places, spacing_);
         Workspace own;
-        const PartJumps parts = made(f, g, own);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (known_.try_emplace(places, parts).second)
+        const auto [parts, is_new] = known_.find(places, [&](const PairFace &f, const PairFace &g)
+                                                 { return made(f, g, own); });
+        if (is_new)
           work.use.n_open += own.use.n_open;
         return parts;
       }
@@ -350,8 +342,7 @@ namespace plumbline::reference
       SortedFaces sorted_;
       std::optional<FaceSweep> sweep_;
       std::vector<JumpPairs> jumps_; ///< of each part
-      mutable std::map<FacePlaces, PartJumps> known_;
-      mutable std::mutex mutex_; ///< of what is known
+      TranslatedPairs<PartJumps> known_;
     };
 
     /// rows += ½κ ∫ g_i·g_j + κ Σ_F ∫_F n·{g_i} [φ_j], of which the matrix has the transpose, too.
