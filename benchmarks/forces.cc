@@ -21,7 +21,7 @@ namespace plumbline::benchmarks
     /// F(u) of FA on n × n nodes of a torus; arguments: m, n.
     /// What a bond asks for: a neighbour's two components, two differences, q by 3 operations and
     /// its square, 2^y by 4 and a polynomial of degree 11 (22), 3 for q times that, 4 to add it up.
-    void forces(benchmark::State &state, What what)
+    void forces(benchmark::State &state, What what, const physics::WellPotential &shape)
     {
       const auto m = static_cast<double>(state.range(0));
       const auto n = static_cast<int>(state.range(1));
@@ -30,7 +30,8 @@ namespace plumbline::benchmarks
       const auto bonds =
           meshfree::well_bonds(law, meshfree::lattice_bonds(meshfree::full_area(kernel), kernel,
                                                             1. / n, geometry::Backend::fast));
-      const meshfree::DoubleWellForce<2> force(bonds, 1. / n, {n, n}, meshfree::Exterior::periodic);
+      const meshfree::DoubleWellForce<2> force(bonds, 1. / n, {n, n}, meshfree::Exterior::periodic,
+                                               {}, {}, shape);
       std::vector<double> u(force.size()), f(force.size());
       for (std::size_t i = 0; i < u.size(); ++i)
         u[i] = .1 * std::sin(static_cast<double>(i));
@@ -59,10 +60,17 @@ namespace plumbline::benchmarks
                                      std::pair{"double well/energy", What::energy}})
     {
       auto *bench = benchmark::RegisterBenchmark(name, [what = what](benchmark::State &state)
-                                                 { forces(state, what); });
+                                                 { forces(state, what, {}); });
       bench->ArgNames({"m", "n"})->Unit(benchmark::kMillisecond)->Args({4, 512});
       if (what == What::force)
         bench->Args({3, 512});
     }
+    benchmark::RegisterBenchmark("double well/force by an expression",
+                                 [](benchmark::State &state) {
+                                   forces(state, What::force, {"Material/potential", "r/(1 + r)"});
+                                 })
+        ->ArgNames({"m", "n"})
+        ->Unit(benchmark::kMillisecond)
+        ->Args({4, 512});
   }
 } // namespace plumbline::benchmarks

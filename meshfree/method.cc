@@ -115,7 +115,7 @@ namespace plumbline::meshfree
       method::StripThreshold strip_threshold(const physics::DoubleWell &law, double h, int n_rows,
                                              geometry::Backend backend) const override
       {
-        const CrackColumn column(bonds_of(law, h, backend), h, n_rows);
+        const CrackColumn column(bonds_of(law, h, backend), h, n_rows, law.shape());
         method::StripThreshold found{
             column.toughness(), std::numeric_limits<double>::quiet_NaN(), {}};
         try
@@ -132,7 +132,7 @@ namespace plumbline::meshfree
                                                           const method::NotchedStripShape &shape,
                                                           geometry::Backend backend) const override
       {
-        return std::make_unique<CrackStrip>(bonds_of(law, shape.h, backend), shape);
+        return std::make_unique<CrackStrip>(bonds_of(law, shape.h, backend), shape, law.shape());
       }
 
       const method::FractureSolver *fracture_solver() const override { return this; }

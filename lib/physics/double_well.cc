@@ -62,8 +62,10 @@ namespace plumbline::physics
     }
   } // namespace
 
-  DoubleWell::DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon)
-      : dim_(dim), influence_(std::move(influence)), c_(c), beta_(beta), horizon_(horizon)
+  DoubleWell::DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon,
+                         WellPotential shape)
+      : dim_(dim), influence_(std::move(influence)), c_(c), beta_(beta), horizon_(horizon),
+        shape_(std::move(shape))
   {
     if (dim < 1 || dim > 3)
       throw InputError("double well: dimension = " + std::to_string(dim) +
@@ -89,12 +91,17 @@ namespace plumbline::physics
 
   double DoubleWell::potential(double s) const
   {
-    return -c_ * std::expm1(-beta_ * s);
+    return c_ * shape_.value(beta_ * s);
   }
 
   double DoubleWell::derivative(double s) const
   {
-    return c_ * beta_ * std::exp(-beta_ * s);
+    return c_ * beta_ * shape_.derivative(beta_ * s);
+  }
+
+  double DoubleWell::tangent(double s) const
+  {
+    return c_ * beta_ * shape_.tangent(beta_ * s);
   }
 
   double DoubleWell::force_factor() const
@@ -104,25 +111,22 @@ namespace plumbline::physics
 
   double DoubleWell::softening_strain(double r) const
   {
-    return 1 / std::sqrt(2 * beta_ * r);
+    return std::sqrt(shape_.softening() / (beta_ * r));
   }
 
-  // with x = √β r, F₁' = 2cβ^½ x e^(-x²) is largest at x² = ½, F₁'' = 2cβ (1 - 2x²) e^(-x²) at 0
-  // and F₁''' = cβ^(3/2) (8x³ - 12x) e^(-x²) at x² = (3 - √6)/2
   double DoubleWell::c1() const
   {
-    return c_ * std::sqrt(2 * beta_) * std::exp(-.5);
+    return c_ * std::sqrt(beta_) * shape_.largest_derivatives()[0];
   }
 
   double DoubleWell::c2() const
   {
-    return 2 * c_ * beta_;
+    return c_ * beta_ * shape_.largest_derivatives()[1];
   }
 
   double DoubleWell::c3() const
   {
-    const double square = .5 * (3 - std::sqrt(6.)), x = std::sqrt(square);
-    return c_ * beta_ * std::sqrt(beta_) * (12 - 8 * square) * x * std::exp(-square);
+    return c_ * beta_ * std::sqrt(beta_) * shape_.largest_derivatives()[2];
   }
 
   double DoubleWell::c_bar() const

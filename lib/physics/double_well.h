@@ -1,14 +1,15 @@
 #pragma once
 
 #include "physics/kernel.h"
+#include "physics/well_potential.h"
 
 namespace plumbline::physics
 {
   /// Bonds with two wells, one at rest and one at infinity, in dim = 1, 2 or 3 dimensions:
   ///   ρ ü(x) = F(u)(x) + b,  F(u)(x) = 4 / (ε^(dim+1) ω_dim) ∫ ω(x) ω(y) J(r/ε) f'(r S²) S e dy
   /// over |y-x| = r < ε, with e = (y-x)/r, S = (u(y)-u(x))·e/r, ω_dim the volume of the unit ball
-  /// and f(s) = c (1 - e^(-βs)). F = -∇PD, PD = 1 / (ε^(dim+1) ω_dim) ∬ ω ω J f(r S²) dy dx; small
-  /// strains see the stiffness p = f'(0) = cβ.
+  /// and f(s) = c φ(βs), c = f(∞), by default c (1 - e^(-βs)). F = -∇PD, PD = 1 / (ε^(dim+1) ω_dim)
+  /// ∬ ω ω J f(r S²) dy dx; small strains see the stiffness p = f'(0) = cβ.
   /// Source: Jha & Lipton 2018, doi:10.1137/17M1112236, (1), (6); PD with the factor |y-x| of the
   /// energy density, which is missing after (4).
   class DoubleWell
@@ -19,8 +20,10 @@ namespace plumbline::physics
     /// @param c          f at infinity, > 0 [energy/length^(dim-1)]
     /// @param beta       β > 0 [1/length]
     /// @param horizon    ε > 0 [length]
+    /// @param shape      φ
     /// @throws InputError  names the key that is out of range
-    DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon);
+    DoubleWell(int dim, RadialProfile influence, double c, double beta, double horizon,
+               WellPotential shape = {});
 
     int dim() const { return dim_; }
     double c() const { return c_; }
@@ -28,6 +31,7 @@ namespace plumbline::physics
     double horizon() const { return horizon_; }
     double stiffness() const { return c_ * beta_; } ///< p = f'(0)
     const RadialProfile &influence() const { return influence_; }
+    const WellPotential &shape() const { return shape_; } ///< φ
 
     /// J(r/ε) for r <= ε; beyond, its formula, a negative one counting as 0: cells that a rule lets
     /// reach out of the ball take the kernel there.
@@ -38,11 +42,12 @@ namespace plumbline::physics
 
     double potential(double s) const;  ///< f(s), exact for small s as well
     double derivative(double s) const; ///< f'(s)
+    double tangent(double s) const;    ///< f'(s) + 2s f''(s), the slope of the force over S
 
     /// The factor 4 / (ε^(dim+1) ω_dim) of F.
     double force_factor() const;
 
-    /// The bond of length r softens beyond the strain S = 1 / √(2βr).
+    /// The bond of length r softens beyond the strain S = r̄/√(βr), r̄² = ½ for the exponential.
     double softening_strain(double r) const;
 
     /// max |F₁'|, |F₁''|, |F₁'''| of F₁(r) = f(r²). Source: ibid., (70)-(72), where after (72) the
@@ -79,5 +84,6 @@ namespace plumbline::physics
     int dim_;
     RadialProfile influence_;
     double c_, beta_, horizon_;
+    WellPotential shape_;
   };
 } // namespace plumbline::physics

@@ -19,7 +19,8 @@ namespace plumbline::physics
       return e[0] * e[0] * matrix.xx + 2 * e[0] * e[1] * matrix.xy + e[1] * e[1] * matrix.yy;
     }
 
-    /// (1/ω_dim) ∫ over the unit ball of J(t) p e^(-q) (1 - 2q) g(t, e) e⊗e, q = β ε t (e·E e)².
+    /// (1/ω_dim) ∫ over the unit ball of J(t) T(r (e·E e)²) g(t, e) e⊗e with T = f' +
+    /// 2s f'' and r = ε t.
     /// @param n  Gauss points in the radius, in parts of at most 64, whose rule is cheap to find;
     /// in 2D 4n angles
     template <typename Integrand>
@@ -40,9 +41,9 @@ namespace plumbline::physics
         double radial = 0;
         for (unsigned int i = 0; i < gauss.size(); ++i)
         {
-          const double t = gauss.point(i)[0], r = law.horizon() * t, q = law.beta() * r * s * s;
+          const double t = gauss.point(i)[0], r = law.horizon() * t;
           radial += gauss.weight(i) * (law.dim() == 1 ? 1 : t) * law.influence(r) *
-                    law.stiffness() * std::exp(-q) * (1 - 2 * q) * g(t, e);
+                    law.tangent(r * s * s) * g(t, e);
         }
         // the unit sphere has the area dim ω_dim
         radial *= static_cast<double>(law.dim()) / n_angles;

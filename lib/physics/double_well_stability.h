@@ -16,7 +16,7 @@ namespace plumbline::physics
 
   /// Small waves e^(ik·x) on a uniform strain E: ρ ẅ = -Λ(k) w, growth where Λ has a negative
   /// eigenvalue. In 1D
-  ///   Λ(k) = (4p/ε²) ∫_0^ε J e^(-βzE²) (1 - 2βzE²) (1 - cos kz)/z dz.
+  ///   Λ(k) = (4/ε²) ∫_0^ε J T(zE²) (1 - cos kz)/z dz,  T(s) = f'(s) + 2s f''(s).
   /// By Gauss points in the radius and equidistant angles, more for short waves. Accuracy: 1e-12 of
   /// the largest eigenvalue, for β ε |E|² up to 30.
   /// @param k  wave vector [1/length]; in 1D its first component
@@ -31,10 +31,11 @@ namespace plumbline::physics
 
   /// What Jha & Lipton 2018, doi:10.1137/17M1112236, test by (64), with the bond energy itself: an
   /// eigenvalue below 0 means growth of their radial perturbation. Their A is -4/ε times this:
-  /// ∫ J p e^(-q) (1 - 2q) e⊗e over the unit ball / ω_dim, q = β ε r S².
+  /// ∫ J T(ε r S²) e⊗e over the unit ball / ω_dim.
   SymmetricMatrix local_stability(const DoubleWell &law, const SymmetricMatrix &strain);
 
-  /// The amplitude X = β ε g² at which strains g × direction lose ellipticity, or fail (64).
+  /// The amplitude X = β ε g², β = f'(0)/f_∞, at which strains g × direction lose ellipticity, or
+  /// fail (64).
   struct Thresholds
   {
     double ellipticity = 0, local = 0;

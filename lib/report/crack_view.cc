@@ -33,8 +33,8 @@ namespace plumbline::report
             "energy of the strained strip relative to the toughness of the lattice"},
            {"strain", "prescribed by the grips, u_y = strain · y"},
            {"G_c", "toughness by the bond potential [force/length]"},
-           {"c", "of the bond potential c (1 - exp(-beta s)) [force/length]"},
-           {"beta", "of the bond potential [1/length]"},
+           {"c", "f(∞) of the bond potential f [force/length]"},
+           {"beta", "f′(0)/f(∞) of the bond potential [1/length]"},
            {"softening strain", "of a bond as long as the horizon"},
            {"G_c,h / G_c", "toughness of the lattice relative to G_c"},
            {"soft energy / G_c,h", "energy that softened bonds gain per unit advance, relative to "

@@ -46,11 +46,13 @@ namespace plumbline::report
     Law double_well(const Facts &facts)
     {
       const bool is_weakened = facts.count("boundary function") > 0;
+      const auto potential = facts.find("potential");
       return {"− 4/(δ<sup>d+1</sup> ω<sub>d</sub>) " + integral +
                   (is_weakened ? "ω(x) ω(x+ξ) " : "") + "J(|ξ|/δ) f′(|ξ| S²) S e dξ",
-              "e = ξ/|ξ|, S = " + difference +
-                  "·e/|ξ|, f(s) = c (1 − e<sup>−βs</sup>), ω<sub>d</sub> = volume of the unit "
-                  "ball" +
+              "e = ξ/|ξ|, S = " + difference + "·e/|ξ|, f(s) = c " +
+                  (potential == facts.end() ? std::string("(1 − e<sup>−βs</sup>)")
+                                            : "g(βs), g(r) = " + escape_html(potential->second)) +
+                  ", ω<sub>d</sub> = volume of the unit ball" +
                   (is_weakened ? ", ω = " + escape_html(facts.at("boundary function")) : ""),
               ""};
     }

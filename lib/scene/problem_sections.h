@@ -6,6 +6,7 @@
 #include "physics/expression.h"
 #include "physics/kernel.h"
 #include "physics/state_based.h"
+#include "physics/well_potential.h"
 #include "scene/choices.h"
 #include "scene/vocabulary.h"
 
@@ -126,8 +127,9 @@ namespace plumbline::scene
     physics::Names names = {};                       ///< in them, of what is random
     bool has_collar_dilatation = true; ///< else θ counts as 0 there: wrong, to be shown
     SurfaceTerms surface_terms = SurfaceTerms::automatic; ///< never uncorrected
-    double c = 1, beta = 1;          ///< of double wells, > 0, see physics::DoubleWell
-    std::optional<double> toughness; ///< G_c of double wells, which with E replaces c and beta
+    double c = 1, beta = 1;           ///< of double wells, > 0: f(s) = c g(beta s)
+    physics::WellPotential potential; ///< g of double wells
+    std::optional<double> toughness;  ///< G_c of double wells, which with E replaces c and beta
     BoundaryFunction boundary_function = BoundaryFunction::one; ///< ω of double wells
     std::string boundary_expression; ///< in x, y and delta, if boundary_function says so
 

@@ -128,6 +128,7 @@ namespace plumbline::scene
            "Material/E in a scene of two dimensions; lambda, mu, k and l are those of the plane"},
           {"Material/c", is_double_well, of_wells},
           {"Material/beta", is_double_well, of_wells},
+          {"Material/potential", is_double_well, of_wells},
           {"Material/toughness", is_double_well,
            of_wells + "; 'plumbline grow' has Fracture/toughness"},
           {"Material/boundary function", is_double_well, of_wells}};

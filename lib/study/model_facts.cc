@@ -103,9 +103,10 @@ namespace plumbline::study
   bool is_of_equation(const std::string &fact)
   {
     static const std::set<std::string> all = {
-        "model",       "dimension",   "kernel",     "constraint",        "constants",
-        "local limit", "coefficient", "dilatation", "varying constants", "boundary function",
-        "broken bonds"};
+        "model",       "dimension",         "kernel",
+        "constraint",  "constants",         "local limit",
+        "coefficient", "dilatation",        "varying constants",
+        "potential",   "boundary function", "broken bonds"};
     return all.count(fact) > 0;
   }
 
@@ -136,6 +137,8 @@ namespace plumbline::study
         scene.domain.dimension == 2 && !scene.domain.is_free_body && !scene.domain.is_damaged())
       if (const auto bounds = bounds_of_constants(scene))
         facts[assumption_1_fact] = words_of_assumption(*bounds, !scene.material.is_homogeneous);
+    if (!scene.material.potential.is_exponential())
+      facts["potential"] = scene.material.potential.text();
     if (scene.material.boundary_function == scene::BoundaryFunction::smoothstep)
       facts["boundary function"] = "t²(3 − 2t) with t = min(1, (distance to the boundary)/δ)";
     if (scene.material.boundary_function == scene::BoundaryFunction::expression)

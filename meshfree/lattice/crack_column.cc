@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace plumbline::meshfree
 {
@@ -26,8 +27,9 @@ namespace plumbline::meshfree
     }
   } // namespace
 
-  CrackColumn::CrackColumn(const std::vector<WellBond> &bonds, double h, int n_free)
-      : h_(h), n_free_(n_free), toughness_(lattice_toughness(bonds, 2, h))
+  CrackColumn::CrackColumn(const std::vector<WellBond> &bonds, double h, int n_free,
+                           physics::WellPotential shape)
+      : shape_(std::move(shape)), h_(h), n_free_(n_free), toughness_(lattice_toughness(bonds, 2, h))
   {
     for (const WellBond &bond : bonds)
       if (bond.k[1] > 0 && bond.strength != 0)
@@ -55,7 +57,7 @@ namespace plumbline::meshfree
     for (const Row &row : rows_)
     {
       const double q = row.way * row.k * h_ * strain;
-      sum -= .5 * row.strength * std::expm1(-q * q);
+      sum += .5 * row.strength * shape_.value(q * q);
     }
     return sum;
   }
@@ -65,7 +67,7 @@ namespace plumbline::meshfree
     double stiffest = 0;
     for (const Row &row : rows_)
       stiffest = std::max(stiffest, row.way * row.k * h_);
-    return std::sqrt(.5) / stiffest;
+    return std::sqrt(shape_.softening()) / stiffest;
   }
 
   double CrackColumn::strain(double energy) const
@@ -108,10 +110,10 @@ namespace plumbline::meshfree
         {
           if (is_separated && a < n / 2 && b >= n / 2)
             continue;
-          const double q = row.way * (rest.u[b] - rest.u[a]), decay = std::exp(-q * q),
-                       pull = row.strength * row.way * q * decay,
-                       slope = row.strength * row.way * row.way * decay * (1 - 2 * q * q);
-          rest.energy -= .5 * h_ * row.strength * std::expm1(-q * q);
+          const double q = row.way * (rest.u[b] - rest.u[a]),
+                       pull = row.strength * row.way * q * shape_.derivative(q * q),
+                       slope = row.strength * row.way * row.way * shape_.tangent(q * q);
+          rest.energy += .5 * h_ * row.strength * shape_.value(q * q);
           if (!is_constrained(a))
             force[a - n_grip_] += pull;
           if (!is_constrained(b))

@@ -16,8 +16,10 @@ namespace plumbline::meshfree
   public:
     /// @param bonds   of every node, with all their mirror images
     /// @param n_free  rows between the grips; the crack plane lies between the middle two
+    /// @param shape   φ of the bonds
     /// @throws InputError  h <= 0, n_free odd or too few to hold the bonds of either half apart
-    CrackColumn(const std::vector<WellBond> &bonds, double h, int n_free);
+    CrackColumn(const std::vector<WellBond> &bonds, double h, int n_free,
+                physics::WellPotential shape = {});
 
     int n_grip() const { return n_grip_; } ///< rows of each grip: the longest bond's
     int n_rows() const { return n_free_ + 2 * n_grip_; }
@@ -29,7 +31,7 @@ namespace plumbline::meshfree
     double density(double strain) const;
 
     /// The strain g >= 0 with W(g) H = energy, by bisection to rounding.
-    /// @throws InputError  one that softens bonds before there is a crack: 2 q² > 1 for one of them
+    /// @throws InputError  one that softens bonds before there is a crack: q² > r̄² for one of them
     double strain(double energy) const;
 
     /// A column in equilibrium.
@@ -58,6 +60,7 @@ namespace plumbline::meshfree
     };
     double most_strain() const;
 
+    physics::WellPotential shape_;
     double h_;
     int n_free_, n_grip_ = 0;
     double toughness_;

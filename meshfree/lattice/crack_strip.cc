@@ -32,14 +32,13 @@ namespace plumbline::meshfree
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] += factor * y[i];
     }
+  } // namespace
 
-    constexpr double soft = .5; ///< q² beyond which q e^(-q²) falls
-  }                             // namespace
-
-  CrackStrip::CrackStrip(const std::vector<WellBond> &bonds, const Shape &shape)
-      : bonds_(bonds), column_(bonds, shape.h, shape.n[1]),
+  CrackStrip::CrackStrip(const std::vector<WellBond> &bonds, const Shape &shape,
+                         const physics::WellPotential &potential)
+      : bonds_(bonds), potential_(potential), column_(bonds, shape.h, shape.n[1], potential),
         h_(shape.h), n_{shape.n[0], column_.n_rows()}, n_notch_(shape.n_notch),
-        force_(bonds, shape.h, n_, Exterior::empty)
+        force_(bonds, shape.h, n_, Exterior::empty, {}, {}, potential)
   {
     if (n_notch_ < 1 || n_notch_ >= n_[0])
       throw InputError("notch: " + std::to_string(n_notch_) + " of " + std::to_string(n_[0]) +
@@ -97,7 +96,8 @@ namespace plumbline::meshfree
     visit_cuts(
         [&](std::size_t from, std::size_t to, const std::array<double, 2> &way, double strength)
         {
-          const double q = stretch(u, from, to, way), pull = strength * q * std::exp(-q * q);
+          const double q = stretch(u, from, to, way),
+                       pull = strength * q * potential_.derivative(q * q);
           f[from] -= pull * way[0];
           f[n_nodes() + from] -= pull * way[1];
         });
@@ -118,9 +118,8 @@ namespace plumbline::meshfree
     visit_cuts(
         [&](std::size_t from, std::size_t to, const std::array<double, 2> &way, double strength)
         {
-          const double q = stretch(u, from, to, way), pull = strength * std::exp(-q * q) *
-                                                             (1 - 2 * q * q) *
-                                                             stretch(v, from, to, way);
+          const double q = stretch(u, from, to, way),
+                       pull = strength * potential_.tangent(q * q) * stretch(v, from, to, way);
           f[from] -= pull * way[0];
           f[n_nodes() + from] -= pull * way[1];
         });
@@ -133,7 +132,7 @@ namespace plumbline::meshfree
         [&](std::size_t from, std::size_t to, const std::array<double, 2> &way, double strength)
         {
           const double q = stretch(u, from, to, way);
-          notch -= .25 * strength * std::expm1(-q * q);
+          notch += .25 * strength * potential_.value(q * q);
         });
     return force_.energy(u) - h_ * h_ * notch;
   }
@@ -187,10 +186,10 @@ namespace plumbline::meshfree
           continue;
         sums.all[node] += bond.strength;
         const double q = stretch(u, node, static_cast<std::size_t>(to_j) * n_[0] + to_i, bond.way);
-        if (q * q <= soft)
+        if (q * q <= potential_.softening())
           continue;
         sums.strength[node] += bond.strength;
-        sums.energy[node] -= .25 * h_ * h_ * bond.strength * std::expm1(-q * q);
+        sums.energy[node] += .25 * h_ * h_ * bond.strength * potential_.value(q * q);
       }
     }
   }
@@ -203,6 +202,7 @@ namespace plumbline::meshfree
         shortest = bond.way[1];
     const int first = column_.n_grip(), last = n_[1] - column_.n_grip();
     const std::size_t n = n_nodes();
+    const double soft = potential_.softening();
     view.tip = notch_tip();
     double before = 0;
     for (int i = n_notch_; i < n_[0]; ++i)
@@ -246,8 +246,8 @@ namespace plumbline::meshfree
         [&](std::size_t from, std::size_t to, const std::array<double, 2> &way, double strength)
         {
           const double q = stretch(u, from, to, way);
-          if (q * q > soft) // counted as soft, but there is nothing in it
-            sums.energy[from] += .25 * h_ * h_ * strength * std::expm1(-q * q);
+          if (q * q > potential_.softening()) // counted as soft, but there is nothing in it
+            sums.energy[from] -= .25 * h_ * h_ * strength * potential_.value(q * q);
           else
             sums.strength[from] += strength;
         });

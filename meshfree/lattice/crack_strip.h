@@ -22,8 +22,10 @@ namespace plumbline::meshfree
     using Shape = method::NotchedStripShape;
     using View = method::CrackView;
 
+    /// @param potential  φ of the bonds
     /// @throws InputError  as CrackColumn; a notch of no column, or of all
-    CrackStrip(const std::vector<WellBond> &bonds, const Shape &shape);
+    CrackStrip(const std::vector<WellBond> &bonds, const Shape &shape,
+               const physics::WellPotential &potential = {});
 
     const CrackColumn &column() const { return column_; }
     const std::array<int, 2> &n() const override { return n_; }
@@ -53,9 +55,9 @@ namespace plumbline::meshfree
     /// PD(u) less the bonds of the notch.
     double energy(const std::vector<double> &u) const override;
 
-    /// A bond is soft where q² > 1/2. The tip is where the first column right of the notch begins
-    /// whose shortest bonds along y are not soft, between columns by linear interpolation of q²;
-    /// branches are a grip apart.
+    /// A bond is soft where q² > r̄², for the exponential 1/2. The tip is where the first column
+    /// right of the notch begins whose shortest bonds along y are not soft, between columns by
+    /// linear interpolation of q²; branches are a grip apart.
     View view(const std::vector<double> &u) const override;
 
     /// The largest difference of u from its mirror image about y = 0.
@@ -85,6 +87,7 @@ namespace plumbline::meshfree
     void find_tip(const std::vector<double> &u, View &view) const;
 
     std::vector<WellBond> bonds_;
+    physics::WellPotential potential_;
     CrackColumn column_;
     double h_;
     std::array<int, 2> n_;

@@ -1,7 +1,7 @@
 #include "meshfree/lattice/double_well_force.h"
 
-#include "algebra/power_of_two.h"
 #include "base/error.h"
+#include "meshfree/rules/well_lanes.h"
 
 #include <deal.II/base/parallel.h>
 
@@ -14,7 +14,6 @@ namespace plumbline::meshfree
 {
   namespace
   {
-    using algebra::power_of_two;
     using algebra::Simd;
     using algebra::Wide;
     using algebra::width_of;
@@ -102,11 +101,11 @@ namespace plumbline::meshfree
     };
 
     /// One tile of F (derivative 0), F' v (1) or the energy's density (-1).
-    template <int dim, bool is_axial, int derivative, class Group, class Vector>
-    [[gnu::always_inline]] inline void add_groups(const Place &at, const Group *group,
-                                                  const Group *end, Vector (&sum)[dim][n_registers])
+    template <int dim, bool is_axial, int derivative, class Lanes, class Group, class Vector>
+    [[gnu::always_inline]] inline void add_groups(const Place &at, const Lanes &shape,
+                                                  const Group *group, const Group *end,
+                                                  Vector (&sum)[dim][n_registers])
     {
-      constexpr double twice_ln2 = 1.3862943611198906; // q² counts in powers of two
       for (; group != end; ++group)
       {
         Images<dim, is_axial, Vector> q, change;
@@ -118,16 +117,12 @@ namespace plumbline::meshfree
           {
             Vector &value = q.value[i][l];
             const Vector square = value * value;
-            const auto power = power_of_two(-square);
             if constexpr (derivative == -1)
-              value = (1 - power.scale) - power.scale * power.tail;
+              value = shape.value(square);
+            else if constexpr (derivative == 0)
+              value *= shape.derivative(square);
             else
-            {
-              const Vector decay = power.scale + power.scale * power.tail;
-              value = derivative == 0
-                          ? Vector(value * decay)
-                          : Vector(change.value[i][l] * decay * (1 - twice_ln2 * square));
-            }
+              value = change.value[i][l] * shape.tangent(square);
           }
         if (at.omega != nullptr)
           q.weigh(*group, at.omega);
@@ -146,17 +141,17 @@ namespace plumbline::meshfree
     };
 
     /// @param result  shape (dim, tile)
-    template <int dim, int derivative, class Vector, class Group>
-    [[gnu::always_inline]] inline void sum_tile(Place at, const Groups<Group> &groups,
-                                                double *result)
+    template <int dim, int derivative, class Vector, class Lanes, class Group>
+    [[gnu::always_inline]] inline void sum_tile(Place at, const Lanes &shape,
+                                                const Groups<Group> &groups, double *result)
     {
       constexpr int part = n_registers * width_of<Vector>;
       for (int first = 0; first < tile; first += part)
       {
         Vector sum[dim][n_registers] = {};
         if constexpr (dim == 2)
-          add_groups<dim, false, derivative>(at, groups.oblique, groups.oblique_end, sum);
-        add_groups<dim, true, derivative>(at, groups.axial, groups.axial_end, sum);
+          add_groups<dim, false, derivative>(at, shape, groups.oblique, groups.oblique_end, sum);
+        add_groups<dim, true, derivative>(at, shape, groups.axial, groups.axial_end, sum);
         for (int a = 0; a < dim; ++a)
           std::memcpy(result + a * tile + first, sum[a], sizeof(sum[a]));
         at.u += part;
@@ -166,18 +161,18 @@ namespace plumbline::meshfree
       }
     }
 
-    template <int dim, int derivative, class Group>
-    PLUMBLINE_VECTOR_CLONES void sum_by_lanes(const Place &at, const Groups<Group> &groups,
-                                              double *result)
+    template <int dim, int derivative, class Lanes, class Group>
+    PLUMBLINE_VECTOR_CLONES void sum_by_lanes(const Place &at, const Lanes &shape,
+                                              const Groups<Group> &groups, double *result)
     {
-      sum_tile<dim, derivative, Simd>(at, groups, result);
+      sum_tile<dim, derivative, Simd>(at, shape, groups, result);
     }
 
-    template <int dim, int derivative, class Group>
-    PLUMBLINE_WIDE_TARGET void sum_by_wide(const Place &at, const Groups<Group> &groups,
-                                           double *result)
+    template <int dim, int derivative, class Lanes, class Group>
+    PLUMBLINE_WIDE_TARGET void sum_by_wide(const Place &at, const Lanes &shape,
+                                           const Groups<Group> &groups, double *result)
     {
-      sum_tile<dim, derivative, Wide>(at, groups, result);
+      sum_tile<dim, derivative, Wide>(at, shape, groups, result);
     }
 
     void check_omega(const std::vector<double> &omega, std::size_t n_nodes)
@@ -233,8 +228,9 @@ namespace plumbline::meshfree
   template <int dim>
   DoubleWellForce<dim>::DoubleWellForce(const std::vector<WellBond> &bonds, double h,
                                         std::array<int, 2> n, Exterior exterior,
-                                        std::vector<double> omega, Gradient mean_gradient)
-      : h_(h), n_(n), exterior_(exterior), jump_(mean_gradient), reach_(0)
+                                        std::vector<double> omega, Gradient mean_gradient,
+                                        physics::WellPotential shape)
+      : h_(h), n_(n), exterior_(exterior), jump_(mean_gradient), shape_(std::move(shape)), reach_(0)
   {
     if (!(h > 0) || !std::isfinite(h) || n[0] < 1 || n[1] < 1 || (dim == 1 && n[1] != 1))
       throw InputError("lattice: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
@@ -255,7 +251,7 @@ namespace plumbline::meshfree
     width_ = (n[0] + tile - 1) / tile * tile + 2 * reach_;
     block_size_ = width_ * (dim == 1 ? 1 : n[1] + 2 * reach_);
     padded_.resize(2 * dim * block_size_);
-    constexpr double ln2 = .6931471805599453;
+    const double unit = well_unit(shape_), root = std::sqrt(unit);
     for (const auto &entry : known)
     {
       const auto &[k1, k2] = entry.first;
@@ -267,8 +263,7 @@ namespace plumbline::meshfree
         images = dim == 1 ? std::vector<std::array<int, 2>>{{k1, 0}, {-k1, 0}}
                           : std::vector<std::array<int, 2>>{{k1, 0}, {-k1, 0}, {0, k1}, {0, -k1}};
       const WellBond one = mean(known, images);
-      Group group{
-          {}, {one.way[0] / std::sqrt(ln2), one.way[1] / std::sqrt(ln2)}, ln2 * one.strength};
+      Group group{{}, {one.way[0] / root, one.way[1] / root}, unit * one.strength};
       for (std::size_t i = 0; i < images.size(); ++i)
         group.shift[i] = images[i][1] * static_cast<std::ptrdiff_t>(width_) + images[i][0];
       (is_axial ? axial_ : oblique_).push_back(group);
@@ -322,15 +317,16 @@ namespace plumbline::meshfree
   }
 
   template <int dim>
-  template <typename DoubleWellForce<dim>::Quantity quantity>
-  void DoubleWellForce<dim>::evaluate_rows(int from, int to, double *result) const
+  template <typename DoubleWellForce<dim>::Quantity quantity, class Lanes>
+  void DoubleWellForce<dim>::evaluate_rows(const Lanes &shape, int from, int to,
+                                           double *result) const
   {
     constexpr int derivative = quantity == Quantity::force     ? 0
                                : quantity == Quantity::tangent ? 1
                                                                : -1;
     constexpr int n_results = quantity == Quantity::energy ? 1 : dim;
-    const auto sum = algebra::has_wide_registers() ? sum_by_wide<dim, derivative, Group>
-                                                   : sum_by_lanes<dim, derivative, Group>;
+    const auto sum = algebra::has_wide_registers() ? sum_by_wide<dim, derivative, Lanes, Group>
+                                                   : sum_by_lanes<dim, derivative, Lanes, Group>;
     const Groups<Group> groups{oblique_.data(), oblique_.data() + oblique_.size(), axial_.data(),
                                axial_.data() + axial_.size()};
     double sums[dim * tile];
@@ -341,7 +337,7 @@ namespace plumbline::meshfree
         const double *const u = padded_.data() + node, *const omega = omega_.empty()
                                                                           ? nullptr
                                                                           : omega_.data() + node;
-        sum({u, u + dim * block_size_, omega, block_size_}, groups, sums);
+        sum({u, u + dim * block_size_, omega, block_size_}, shape, groups, sums);
         for (int a = 0; a < n_results; ++a)
           for (int l = 0; l < std::min(tile, n_[0] - i); ++l)
             result[(static_cast<std::size_t>(a) * n_[1] + j) * n_[0] + i + l] =
@@ -360,8 +356,16 @@ namespace plumbline::meshfree
       if (v != nullptr)
         pad(v->data() + a * n_nodes(), {}, padded_.data() + (dim + a) * block_size_);
     }
-    dealii::parallel::apply_to_subranges(
-        0, n_[1], [&](int from, int to) { evaluate_rows<quantity>(from, to, result); }, 16);
+    const auto with = [&](const auto &shape)
+    {
+      dealii::parallel::apply_to_subranges(
+          0, n_[1], [&](int from, int to) { evaluate_rows<quantity>(shape, from, to, result); },
+          16);
+    };
+    if (shape_.is_exponential())
+      with(ExponentialLanes(shape_));
+    else
+      with(TabulatedLanes(shape_));
   }
 
   template <int dim>
@@ -384,12 +388,10 @@ namespace plumbline::meshfree
   {
     std::vector<double> density(n_nodes());
     evaluate<Quantity::energy>(u, nullptr, density.data());
-    // strengths are ln 2 of those of 1 - e^(-q²), as the squares of the ways are 1 / ln 2
     double sum = 0;
     for (const double value : density)
       sum += value;
-    constexpr double ln2 = .6931471805599453;
-    return .25 / ln2 * sum * (dim == 1 ? h_ : h_ * h_);
+    return .25 / well_unit(shape_) * sum * (dim == 1 ? h_ : h_ * h_);
   }
 
   template class DoubleWellForce<1>;

@@ -18,9 +18,10 @@ namespace plumbline::meshfree
   /// bits for any number of threads. The four mirror images of a bond are added in an order that
   /// mirror images share, so fields that are symmetric about either axis of the box stay so to the
   /// last bit.
-  /// Accuracy: 1e-14 of Σ |bond forces|, the exponential's included.
+  /// Accuracy: 1e-14 of Σ |bond forces|, the exponential's included; other potentials as theirs.
   /// Cost: 1.3e9 to 2e9 bonds (to one neighbour of one node) a second and core where registers
-  /// hold eight numbers, .25e9 where they hold four; a padded copy of the vectors.
+  /// hold eight numbers, .25e9 where they hold four; a padded copy of the vectors. Potentials that
+  /// are not exponential take about five times as long.
   /// Not for: calling one object from several threads at a time.
   template <int dim>
   class DoubleWellForce
@@ -32,10 +33,12 @@ namespace plumbline::meshfree
     /// @param omega  the boundary function at the nodes, shape (n[1], n[0]), >= 0; empty: 1
     /// @param mean_gradient  G of a torus: displacements go on as u_a(x + L_b) = u_a(x) + G_ab L_b,
     /// L the sides of the box, so that u may be a uniform strain and something periodic
+    /// @param shape  φ of the bonds
     /// @throws InputError  h <= 0, n < 1, ω of another size, negative, not finite or 0 everywhere
     /// @throws NumericalError  weights that differ between mirror images
     DoubleWellForce(const std::vector<WellBond> &bonds, double h, std::array<int, 2> n,
-                    Exterior exterior, std::vector<double> omega = {}, Gradient mean_gradient = {});
+                    Exterior exterior, std::vector<double> omega = {}, Gradient mean_gradient = {},
+                    physics::WellPotential shape = {});
 
     std::size_t size() const { return dim * n_nodes(); }
     std::size_t n_nodes() const { return static_cast<std::size_t>(n_[0]) * n_[1]; }
@@ -55,7 +58,7 @@ namespace plumbline::meshfree
     struct Group
     {
       std::array<std::ptrdiff_t, 4> shift{}; ///< to the neighbours in the padded fields
-      std::array<double, 2> way{};           ///< so that 2^(-q²) is the bond's exponential
+      std::array<double, 2> way{};           ///< see well_unit
       double strength = 0;
     };
 
@@ -68,8 +71,8 @@ namespace plumbline::meshfree
     };
     template <Quantity quantity>
     void evaluate(const std::vector<double> &u, const std::vector<double> *v, double *result) const;
-    template <Quantity quantity>
-    void evaluate_rows(int from, int to, double *result) const;
+    template <Quantity quantity, class Lanes>
+    void evaluate_rows(const Lanes &shape, int from, int to, double *result) const;
     void pad(const double *field, const std::array<double, dim> &jump, double *padded) const;
 
     double h_;
@@ -77,6 +80,7 @@ namespace plumbline::meshfree
     Exterior exterior_;
     std::vector<double> omega_; ///< padded, empty for 1
     Gradient jump_;             ///< G_ab L_b
+    physics::WellPotential shape_;
     int reach_;
     std::size_t width_, block_size_;     ///< of the padded fields
     std::vector<Group> oblique_, axial_; ///< (±k1, ±k2); (±k, 0) and (0, ±k)

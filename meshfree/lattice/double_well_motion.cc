@@ -86,7 +86,7 @@ namespace plumbline::meshfree
             toughness_(lattice_toughness(bonds, dim, problem.h)), n_all_(box.places.size()),
             force_(bonds, problem.h, box.n,
                    problem.is_periodic() ? Exterior::periodic : Exterior::empty,
-                   boundary_function(problem, box), gradient),
+                   boundary_function(problem, box), gradient, problem.double_well->shape()),
             all_(dim * n_all_), other_(dim * n_all_)
       {
         for (std::size_t k = 0; k < n_all_; ++k)

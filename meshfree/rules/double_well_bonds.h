@@ -8,8 +8,8 @@
 namespace plumbline::meshfree
 {
   /// A bond of every node of a lattice, ready for forces of two wells: with q = way·(u_j - u_i),
-  ///   F_i = Σ ω_i ω_j strength q e^(-q²) way,  PD = h^dim Σ_i Σ_j ω_i ω_j strength/4 (1 -
-  ///   e^(-q²)).
+  ///   F_i = Σ ω_i ω_j strength q φ'(q²) way,  PD = h^dim Σ_i Σ_j ω_i ω_j strength/4 φ(q²),
+  /// φ the shape of the potential, law.shape().
   struct WellBond
   {
     std::array<int, 2> k{};      ///< lattice steps to the neighbour

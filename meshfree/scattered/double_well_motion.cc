@@ -1,7 +1,7 @@
 #include "meshfree/scattered/double_well_motion.h"
 
-#include "algebra/power_of_two.h"
 #include "meshfree/rules/double_well_bonds.h"
+#include "meshfree/rules/well_lanes.h"
 #include "method/nodal_motion.h"
 
 #include <deal.II/base/parallel.h>
@@ -19,36 +19,45 @@ namespace plumbline::meshfree
     using State = method::EquationOfMotion::State;
     using Pair = std::array<double, 2>;
 
-    constexpr double ln2 = .6931471805599453; // q² counts in powers of two
-
     /// A bond of a free node, its force times the node's cell, ω in it.
     struct CellBond
     {
       unsigned int neighbour;
-      Pair way; ///< so that 2^(-q²), q = way·(u_j - u_i), is the bond's exponential
+      Pair way; ///< q = way·(u_j - u_i), see well_unit
       double strength;
     };
 
-    /// 2^(-q²), and what is left of 1.
+    enum class Quantity
+    {
+      derivative,
+      tangent,
+      value
+    };
+
+    /// φ' of q², φ' + 2q²φ'' or φ.
     /// @param n  values, a multiple of simd_width
-    PLUMBLINE_VECTOR_CLONES void decay_of(const double *q, std::size_t n, double *decay,
-                                          double *loss)
+    template <Quantity quantity, class Lanes>
+    PLUMBLINE_VECTOR_CLONES void shape_of(const Lanes &shape, const double *q, std::size_t n,
+                                          double *result)
     {
       for (std::size_t k = 0; k < n; k += algebra::simd_width)
       {
-        const Simd value = algebra::load<Simd>(q + k);
-        const auto power = algebra::power_of_two<Simd>(-(value * value));
-        const Simd kept = power.scale + power.scale * power.tail,
-                   lost = (1 - power.scale) - power.scale * power.tail;
-        std::memcpy(decay + k, &kept, sizeof(kept));
-        std::memcpy(loss + k, &lost, sizeof(lost));
+        const Simd value = algebra::load<Simd>(q + k), square = value * value;
+        Simd of_square{};
+        if constexpr (quantity == Quantity::derivative)
+          of_square = shape.derivative(square);
+        else if constexpr (quantity == Quantity::tangent)
+          of_square = shape.tangent(square);
+        else
+          of_square = shape.value(square);
+        std::memcpy(result + k, &of_square, sizeof(of_square));
       }
     }
 
-    /// What the bonds of one node see of a state.
+    /// What the bonds of one node see of a state: q, and a quantity of q².
     struct Row
     {
-      std::vector<double> q, decay, loss;
+      std::vector<double> q, shape;
     };
 
     /// What drives states is √V b at the free nodes and behind it u at the constrained ones, shape
@@ -57,7 +66,7 @@ namespace plumbline::meshfree
     {
     public:
       ScatteredWells(const problem::Problem<2> &problem, const Families<2> &families)
-          : cells_(problem.cells()), start_{0}
+          : cells_(problem.cells()), shape_(problem.double_well->shape()), start_{0}
       {
         const std::size_t n_free = cells_->n_free;
         nodes_.assign(cells_->nodes.begin(),
@@ -111,7 +120,7 @@ namespace plumbline::meshfree
       {
         spread(x, g);
         a.assign(g.begin(), g.begin() + static_cast<std::ptrdiff_t>(size()));
-        over_rows(
+        over_rows<Quantity::derivative>(
             [&](std::size_t i, const Row &row)
             {
               Pair sum{};
@@ -132,12 +141,11 @@ namespace plumbline::meshfree
         Row row;
         for (std::size_t i = 0; i < n; ++i)
         {
-          see(i, row);
+          see<Quantity::tangent>(i, row);
           for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
           {
             const CellBond &bond = bonds_[k];
-            const double q = row.q[k - start_[i]], decay = row.decay[k - start_[i]];
-            const double stiffness = bond.strength * decay * (1 - 2 * ln2 * q * q);
+            const double stiffness = bond.strength * row.shape[k - start_[i]];
             const std::size_t j = bond.neighbour;
             const double here = stretch(bond, y, i) / roots_[i],
                          there = j < n ? stretch(bond, y, j) / roots_[j] : 0;
@@ -161,14 +169,15 @@ namespace plumbline::meshfree
       {
         spread(x, g);
         std::vector<double> of_node(nodes_.size());
-        over_rows(
+        over_rows<Quantity::value>(
             [&](std::size_t i, const Row &row)
             {
               for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
               {
                 // a bond between free nodes comes from both ends, one to a constrained node once
                 const double ends = bonds_[k].neighbour < nodes_.size() ? 1 : 2;
-                of_node[i] += ends * bonds_[k].strength / (4 * ln2) * row.loss[k - start_[i]];
+                of_node[i] +=
+                    ends * bonds_[k].strength / (4 * well_unit(shape_)) * row.shape[k - start_[i]];
               }
             });
         return std::accumulate(of_node.begin(), of_node.end(), 0.);
@@ -183,7 +192,7 @@ namespace plumbline::meshfree
         Row row;
         for (std::size_t i = 0; n_constrained > 0 && i < n; ++i)
         {
-          see(i, row);
+          see<Quantity::derivative>(i, row);
           for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
             if (bonds_[k].neighbour >= n)
             {
@@ -208,13 +217,13 @@ namespace plumbline::meshfree
                     const Bond<2> &bond)
       {
         const WellBond well = well_bond(*problem.double_well, bond.weight, bond.kernel_point);
-        double strength = ln2 * cells_->area[i] * well.strength;
+        const double unit = well_unit(shape_), root = std::sqrt(unit);
+        double strength = unit * cells_->area[i] * well.strength;
         if (problem.boundary_function)
           strength *= problem.boundary_function(cells_->nodes[i]) *
                       problem.boundary_function(cells_->nodes[j]);
         if (strength != 0)
-          bonds_.push_back(
-              {j, {well.way[0] / std::sqrt(ln2), well.way[1] / std::sqrt(ln2)}, strength});
+          bonds_.push_back({j, {well.way[0] / root, well.way[1] / root}, strength});
       }
 
       /// Whether bonds between free nodes are the same from both ends, to rounding.
@@ -257,14 +266,14 @@ namespace plumbline::meshfree
         }
       }
 
+      template <Quantity quantity>
       void see(std::size_t i, Row &row) const
       {
         const std::size_t n = start_[i + 1] - start_[i], padded = (n + algebra::simd_width - 1) /
                                                                   algebra::simd_width *
                                                                   algebra::simd_width;
         row.q.assign(padded, 0.);
-        row.decay.resize(padded);
-        row.loss.resize(padded);
+        row.shape.resize(padded);
         for (std::size_t k = 0; k < n; ++k)
         {
           const CellBond &bond = bonds_[start_[i] + k];
@@ -272,11 +281,16 @@ namespace plumbline::meshfree
           row.q[k] =
               bond.way[0] * (there[0] - all_[2 * i]) + bond.way[1] * (there[1] - all_[2 * i + 1]);
         }
-        decay_of(row.q.data(), padded, row.decay.data(), row.loss.data());
+        const auto with = [&](const auto &shape)
+        { shape_of<quantity>(shape, row.q.data(), padded, row.shape.data()); };
+        if (shape_.is_exponential())
+          with(ExponentialLanes(shape_));
+        else
+          with(TabulatedLanes(shape_));
       }
 
       /// @param visit  (node, row), of several nodes at a time
-      template <typename Visit>
+      template <Quantity quantity, typename Visit>
       void over_rows(const Visit &visit) const
       {
         constexpr unsigned int grain = 256; // nodes, worth a thread's while
@@ -287,17 +301,17 @@ namespace plumbline::meshfree
               Row row;
               for (std::size_t i = from; i < to; ++i)
               {
-                see(i, row);
+                see<quantity>(i, row);
                 visit(i, row);
               }
             },
             grain);
       }
 
-      /// The force along a bond's way.
+      /// The force along a bond's way, row.shape being the derivative.
       static double pull(const Row &row, std::size_t k, const CellBond &bond)
       {
-        return bond.strength * row.q[k] * row.decay[k];
+        return bond.strength * row.q[k] * row.shape[k];
       }
 
       static void add(Pair &sum, const CellBond &bond, double pull)
@@ -312,6 +326,7 @@ namespace plumbline::meshfree
       }
 
       std::shared_ptr<const geometry::NodeCells<2>> cells_;
+      physics::WellPotential shape_;
       std::vector<double> roots_;      ///< of the free nodes' cells
       std::vector<std::size_t> start_; ///< of each free node's bonds
       std::vector<CellBond> bonds_;

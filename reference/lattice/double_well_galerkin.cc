@@ -261,8 +261,8 @@ namespace plumbline::reference
         {&u, &v},
         [this](double length, const auto &strains, int i)
         {
-          const double stretched = length * strains[0][i] * strains[0][i]; // f'' = -β f'
-          return law_.derivative(stretched) * (1 - 2 * law_.beta() * stretched) * strains[1][i];
+          const double s = strains[0][i];
+          return law_.tangent(length * s * s) * strains[1][i];
         },
         out);
   }

@@ -51,9 +51,10 @@ namespace
   /// A quarter of a thousand nodes and displacements that soften some bonds of them.
   struct Rough
   {
-    CrackStrip strip{bonds(.2, .1), {{12, 16}, 5, .1}};
-    Vector u = Vector(strip.size());
-    Rough()
+    CrackStrip strip;
+    Vector u;
+    explicit Rough(const physics::WellPotential &shape)
+        : strip(bonds(.2, .1), {{12, 16}, 5, .1}, shape), u(strip.size())
     {
       for (std::size_t i = 0; i < u.size(); ++i)
         u[i] = .2 * std::sin(1. + static_cast<double>(i) * static_cast<double>(i));
@@ -72,6 +73,23 @@ TEST(CrackColumn, thresholds_tend_to_the_toughness_of_the_lattice)
     EXPECT_NEAR(column.toughness() / well(horizon).toughness(), .9375, 1e-10);
     EXPECT_NEAR(column.density(column.strain(.5)) * column.height(), .5, 1e-12);
   }
+}
+
+// what the column stores less two halves is G_c at any potential: as for the exponential above
+TEST(CrackColumn, takes_any_potential)
+{
+  const physics::WellPotential same("Material/potential", "1 - exp(-r)"),
+      rational("Material/potential", "r/(1 + r)");
+  const CrackColumn built_in(bonds(.1, .025), .025, 40),
+      by_expression(bonds(.1, .025), .025, 40, same), other(bonds(.1, .025), .025, 40, rational),
+      higher(bonds(.1, .025), .025, 80, rational);
+  EXPECT_NEAR(by_expression.threshold(), built_in.threshold(), 1e-10);
+  EXPECT_NEAR(by_expression.density(1), built_in.density(1), 1e-13);
+  EXPECT_LT(other.density(1), built_in.density(1)); // s/(1 + s) < 1 - e^(-s)
+  const double low = 1 - other.threshold() / other.toughness(),
+               high = 1 - higher.threshold() / higher.toughness();
+  EXPECT_LT(std::abs(low), .1);
+  EXPECT_LT(std::abs(high), .7 * std::abs(low));
 }
 
 TEST(CrackColumn, halves_stand_still_and_the_whole_is_strained_evenly_far_from_its_grips)
@@ -95,37 +113,41 @@ TEST(CrackColumn, refuses_what_has_no_crack_between_grips)
 
 TEST(CrackStrip, forces_are_the_slope_of_its_energy_and_tangents_that_of_forces)
 {
-  const Rough rough;
-  const CrackStrip &strip = rough.strip;
-  constexpr double step = 1e-5;
-  Vector f, right, left, slope, direction(strip.size());
-  strip.force(rough.u, f);
-  const std::size_t constrained = static_cast<std::size_t>(strip.column().n_grip()) * 12;
-  for (std::size_t i = 0; i < constrained; ++i)
-    EXPECT_EQ(f[i], 0);
-  const double size = std::sqrt(analysis::dot(f, f));
-  for (std::size_t i = constrained; i < strip.n_nodes() - constrained; i += 7)
-    for (const std::size_t unknown : {i, i + strip.n_nodes()})
-    {
-      Vector u = rough.u;
-      u[unknown] += step;
-      const double more = strip.energy(u);
-      u[unknown] -= 2 * step;
-      EXPECT_NEAR(f[unknown], -(more - strip.energy(u)) / (2 * step) / (.1 * .1), 1e-7 * size);
-    }
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    direction[i] =
-        i % strip.n_nodes() >= constrained && i % strip.n_nodes() < strip.n_nodes() - constrained
-            ? std::cos(static_cast<double>(3 * i))
-            : 0;
-  Vector u = rough.u;
-  analysis::add(u, step, direction);
-  strip.force(u, right);
-  analysis::add(u, -2 * step, direction);
-  strip.force(u, left);
-  strip.tangent(rough.u, direction, slope);
-  for (std::size_t i = 0; i < f.size(); ++i)
-    EXPECT_NEAR(slope[i], (right[i] - left[i]) / (2 * step), 1e-7 * size);
+  for (const physics::WellPotential &shape :
+       {physics::WellPotential(), physics::WellPotential("Material/potential", "r/(1 + r)")})
+  {
+    const Rough rough(shape);
+    const CrackStrip &strip = rough.strip;
+    constexpr double step = 1e-5;
+    Vector f, right, left, slope, direction(strip.size());
+    strip.force(rough.u, f);
+    const std::size_t constrained = static_cast<std::size_t>(strip.column().n_grip()) * 12;
+    for (std::size_t i = 0; i < constrained; ++i)
+      EXPECT_EQ(f[i], 0);
+    const double size = std::sqrt(analysis::dot(f, f));
+    for (std::size_t i = constrained; i < strip.n_nodes() - constrained; i += 7)
+      for (const std::size_t unknown : {i, i + strip.n_nodes()})
+      {
+        Vector u = rough.u;
+        u[unknown] += step;
+        const double more = strip.energy(u);
+        u[unknown] -= 2 * step;
+        EXPECT_NEAR(f[unknown], -(more - strip.energy(u)) / (2 * step) / (.1 * .1), 1e-7 * size);
+      }
+    for (std::size_t i = 0; i < direction.size(); ++i)
+      direction[i] =
+          i % strip.n_nodes() >= constrained && i % strip.n_nodes() < strip.n_nodes() - constrained
+              ? std::cos(static_cast<double>(3 * i))
+              : 0;
+    Vector u = rough.u;
+    analysis::add(u, step, direction);
+    strip.force(u, right);
+    analysis::add(u, -2 * step, direction);
+    strip.force(u, left);
+    strip.tangent(rough.u, direction, slope);
+    for (std::size_t i = 0; i < f.size(); ++i)
+      EXPECT_NEAR(slope[i], (right[i] - left[i]) / (2 * step), 1e-7 * size);
+  }
 }
 
 TEST(CrackStrip, a_notch_parts_what_is_left_of_its_tip)

@@ -198,6 +198,32 @@ TEST(DoubleWellDynamics, energy_swings_with_the_order_of_the_scheme_and_does_not
   EXPECT_LT(force.energy(state.u), 1e-3 * start);
 }
 
+// the energy of velocity Verlet's own Hamiltonian differs from that of the bonds by O(Δt²)
+TEST(DoubleWellDynamics, of_another_potential_keeps_its_energy)
+{
+  const physics::WellPotential shape("Material/potential", "r/(1 + r)");
+  const DoubleWell law(1, decaying, 1, 1, .1, shape);
+  constexpr int n = 100;
+  const DoubleWellForce<1> force(axis_bonds(law, 1. / n, "FA"), 1. / n, {n, 1}, Exterior::periodic,
+                                 {}, {}, shape);
+  const auto drift = [&](double step)
+  {
+    State state = sine(n, .2);
+    const double start = force.energy(state.u);
+    double largest = 0;
+    for (int part = 1; part <= 20; ++part)
+    {
+      analysis::integrate(motion_of(force), scheme("velocity Verlet"), {step}, .1 * part, state);
+      const double kinetic = .5 * analysis::dot(state.v, state.v) / n;
+      largest = std::max(largest, std::abs(force.energy(state.u) + kinetic - start) / start);
+    }
+    return largest;
+  };
+  const double coarse = drift(.01), fine = drift(.005);
+  EXPECT_LT(coarse, 1e-2);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, .15);
+}
+
 TEST(DoubleWellDynamics, uniform_strain_is_in_equilibrium_on_a_torus)
 {
   const DoubleWell law = well(2, .3, constant);

@@ -14,15 +14,22 @@ using namespace plumbline;
 using namespace plumbline::meshfree;
 using physics::DoubleWell;
 using physics::PowerTerm;
+using physics::WellPotential;
 
 namespace
 {
   using Vector = std::vector<double>;
   const std::vector<PowerTerm> constant = {{1, 0}}, decaying = {{1, 0}, {-1, 1}};
 
-  DoubleWell well(double horizon, const std::vector<PowerTerm> &influence = constant, int dim = 2)
+  DoubleWell well(double horizon, const std::vector<PowerTerm> &influence = constant, int dim = 2,
+                  const WellPotential &shape = {})
   {
-    return {dim, influence, 1.3, 2.1, horizon};
+    return {dim, influence, 1.3, 2.1, horizon, shape};
+  }
+
+  WellPotential potential(const std::string &text)
+  {
+    return {"Material/potential", text};
   }
 
   Bonds<2> bonds_of(const DoubleWell &law, double h, const std::string &name)
@@ -52,7 +59,8 @@ namespace
     return omega;
   }
 
-  /// PD by its definition, bond by bond with J, r and S, in any kind of number.
+  /// PD by its definition, bond by bond with J, r and S, in any kind of number; of an exponential
+  /// potential or of c s/(1 + s).
   template <typename Number>
   Number energy(const DoubleWell &law, const Bonds<2> &bonds, std::array<int, 2> n,
                 Exterior exterior, const Vector &omega, const std::vector<Number> &u)
@@ -73,7 +81,9 @@ namespace
           const Number strain = ((u[there] - u[here]) * bond.kernel_point[0] +
                                  (u[block + there] - u[block + here]) * bond.kernel_point[1]) /
                                 (r * r);
-          const Number f = law.c() * (1. - std::exp(-law.beta() * r * strain * strain));
+          const Number s = law.beta() * r * strain * strain,
+                       f = law.c() *
+                           (law.shape().is_exponential() ? 1. - std::exp(-s) : s / (1. + s));
           sum += omega[here] * omega[there] * bond.weight * law.influence(r) * f;
         }
     return sum * bonds.h * bonds.h / (M_PI * eps * eps * eps);
@@ -83,61 +93,97 @@ namespace
 TEST(DoubleWellForce, is_the_gradient_of_the_energy)
 {
   const double h = .1;
-  for (const std::string rule : {"FA", "PA-AC", "IPA-AC", "IPA-AC-R2"})
-    for (const Exterior exterior : {Exterior::periodic, Exterior::empty})
-    {
-      const DoubleWell law = well(.3, decaying);
-      const Bonds<2> bonds = bonds_of(law, h, rule);
-      const std::array<int, 2> n{21, 11}; // two tiles a row, one of them in part
-      const std::size_t n_nodes = n[0] * n[1];
-      const Vector omega = rough_omega(n_nodes), u = rough_field(2 * n_nodes, .4);
-      const DoubleWellForce<2> force(well_bonds(law, bonds), h, n, exterior, omega);
-      Vector f;
-      force.force(u, f);
-      ASSERT_EQ(f.size(), 2 * n_nodes);
-      const double pd = energy(law, bonds, n, exterior, omega, u);
-      EXPECT_NEAR(force.energy(u), pd, 1e-13 * pd);
-      double size = 0;
-      for (const double value : f)
-        size = std::max(size, std::abs(value));
-      for (const std::size_t i : {0, 5, 20, 115, 230, 231, 340, 461})
+  for (const WellPotential &shape : {WellPotential(), potential("r/(1 + r)")})
+    for (const std::string rule : {"FA", "PA-AC", "IPA-AC", "IPA-AC-R2"})
+      for (const Exterior exterior : {Exterior::periodic, Exterior::empty})
       {
-        std::vector<std::complex<double>> moved(u.begin(), u.end());
-        moved[i] += std::complex<double>(0, 1e-30); // the derivative without differences
-        const double gradient = energy(law, bonds, n, exterior, omega, moved).imag() / 1e-30;
-        EXPECT_NEAR(f[i], -gradient / (h * h), 1e-13 * size) << rule << " at " << i;
+        const DoubleWell law = well(.3, decaying, 2, shape);
+        const Bonds<2> bonds = bonds_of(law, h, rule);
+        const std::array<int, 2> n{21, 11}; // two tiles a row, one of them in part
+        const std::size_t n_nodes = n[0] * n[1];
+        const Vector omega = rough_omega(n_nodes), u = rough_field(2 * n_nodes, .4);
+        const DoubleWellForce<2> force(well_bonds(law, bonds), h, n, exterior, omega, {}, shape);
+        Vector f;
+        force.force(u, f);
+        ASSERT_EQ(f.size(), 2 * n_nodes);
+        const double pd = energy(law, bonds, n, exterior, omega, u);
+        EXPECT_NEAR(force.energy(u), pd, 1e-13 * pd);
+        double size = 0;
+        for (const double value : f)
+          size = std::max(size, std::abs(value));
+        for (const std::size_t i : {0, 5, 20, 115, 230, 231, 340, 461})
+        {
+          std::vector<std::complex<double>> moved(u.begin(), u.end());
+          moved[i] += std::complex<double>(0, 1e-30); // the derivative without differences
+          const double gradient = energy(law, bonds, n, exterior, omega, moved).imag() / 1e-30;
+          EXPECT_NEAR(f[i], -gradient / (h * h), 1e-13 * size) << rule << " at " << i;
+        }
       }
-    }
 }
 
 TEST(DoubleWellForce, tangent_is_its_derivative_and_symmetric)
 {
   const double h = .1, step = 1e-5;
-  const DoubleWell law = well(.3);
-  const std::array<int, 2> n{19, 9};
-  const DoubleWellForce<2> force(well_bonds(law, bonds_of(law, h, "IPA-AC")), h, n, Exterior::empty,
-                                 rough_omega(n[0] * n[1]));
-  const Vector u = rough_field(force.size(), .4), v = rough_field(force.size(), 1);
-  Vector w(force.size()), tangent, other, plus = u, minus = u, f_plus, f_minus;
-  for (std::size_t i = 0; i < u.size(); ++i)
+  for (const WellPotential &shape : {WellPotential(), potential("r/(1 + r)")})
   {
-    w[i] = std::cos(static_cast<double>(7 * i));
-    plus[i] += step * v[i];
-    minus[i] -= step * v[i];
+    const DoubleWell law = well(.3);
+    const std::array<int, 2> n{19, 9};
+    const DoubleWellForce<2> force(well_bonds(law, bonds_of(law, h, "IPA-AC")), h, n,
+                                   Exterior::empty, rough_omega(n[0] * n[1]), {}, shape);
+    const Vector u = rough_field(force.size(), .4), v = rough_field(force.size(), 1);
+    Vector w(force.size()), tangent, other, plus = u, minus = u, f_plus, f_minus;
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      w[i] = std::cos(static_cast<double>(7 * i));
+      plus[i] += step * v[i];
+      minus[i] -= step * v[i];
+    }
+    force.tangent(u, v, tangent);
+    force.tangent(u, w, other);
+    force.force(plus, f_plus);
+    force.force(minus, f_minus);
+    double left = 0, right = 0, size = 0;
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      EXPECT_NEAR(tangent[i], (f_plus[i] - f_minus[i]) / (2 * step), 1e-5);
+      left += w[i] * tangent[i];
+      right += v[i] * other[i];
+      size += std::abs(w[i] * tangent[i]);
+    }
+    EXPECT_NEAR(left, right, 1e-14 * size);
   }
-  force.tangent(u, v, tangent);
-  force.tangent(u, w, other);
-  force.force(plus, f_plus);
-  force.force(minus, f_minus);
-  double left = 0, right = 0, size = 0;
-  for (std::size_t i = 0; i < u.size(); ++i)
+}
+
+TEST(DoubleWellForce, is_the_same_by_an_expression)
+{
+  const WellPotential shape = potential("1 - exp(-r)");
+  const auto expect = [&](const auto &built_in, const auto &by_expression)
   {
-    EXPECT_NEAR(tangent[i], (f_plus[i] - f_minus[i]) / (2 * step), 1e-5);
-    left += w[i] * tangent[i];
-    right += v[i] * other[i];
-    size += std::abs(w[i] * tangent[i]);
-  }
-  EXPECT_NEAR(left, right, 1e-14 * size);
+    const Vector u = rough_field(built_in.size(), .4), v = rough_field(built_in.size(), 1);
+    Vector force, same_force, tangent, same_tangent;
+    built_in.force(u, force);
+    by_expression.force(u, same_force);
+    built_in.tangent(u, v, tangent);
+    by_expression.tangent(u, v, same_tangent);
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      EXPECT_NEAR(same_force[i], force[i], 1e-12);
+      EXPECT_NEAR(same_tangent[i], tangent[i], 1e-11);
+    }
+    EXPECT_NEAR(by_expression.energy(u), built_in.energy(u), 1e-13 * built_in.energy(u));
+    Vector small = u;
+    for (double &value : small)
+      value *= 1e-9;
+    EXPECT_NEAR(by_expression.energy(small), built_in.energy(small),
+                1e-13 * built_in.energy(small));
+  };
+  const DoubleWell line = well(.5, constant, 1), plane = well(.3);
+  const auto on_line = axis_bonds(line, .1, "FA"),
+             in_plane = well_bonds(plane, bonds_of(plane, .1, "IPA-AC"));
+  expect(DoubleWellForce<1>(on_line, .1, {23, 1}, Exterior::periodic),
+         DoubleWellForce<1>(on_line, .1, {23, 1}, Exterior::periodic, {}, {}, shape));
+  expect(DoubleWellForce<2>(in_plane, .1, {19, 9}, Exterior::empty),
+         DoubleWellForce<2>(in_plane, .1, {19, 9}, Exterior::empty, {}, {}, shape));
 }
 
 TEST(DoubleWellForce, exponential_is_exact_from_small_strains_to_broken_bonds)

@@ -30,6 +30,11 @@ namespace
     return u;
   }
 
+  physics::WellPotential rational()
+  {
+    return {"Material/potential", "r/(1 + r)"};
+  }
+
   template <int dim>
   void expect_gradient(const DoubleWellGalerkin<dim> &space)
   {
@@ -98,6 +103,8 @@ TEST(DoubleWellGalerkin, residual_is_the_gradient_of_the_energy)
   expect_gradient(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23}, .1, {10, 1}));
   expect_gradient(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 7}, 2));
   expect_gradient(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23}, .1, {10, 1}, 3, 2));
+  expect_gradient(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23, rational()}, .1, {10, 1}));
+  expect_gradient(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23, rational()}, .1, {5, 7}, 2));
   expect_gradient(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 4}, 2, 2));
 }
 
@@ -124,6 +131,21 @@ TEST(DoubleWellGalerkin, tangent_is_the_derivative_of_the_residual)
   expect(DoubleWellGalerkin<1>({1, constant, 1.3, 2.1, .23}, .1, {10, 1}));
   expect(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 7}, 2));
   expect(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23}, .1, {5, 4}, 2, 2));
+  expect(DoubleWellGalerkin<2>({2, decaying, 1.3, 2.1, .23, rational()}, .1, {5, 4}, 2, 2));
+}
+
+TEST(DoubleWellGalerkin, is_the_same_by_an_expression)
+{
+  const physics::WellPotential same("Material/potential", "1 - exp(-r)");
+  const DoubleWellGalerkin<2> built_in({2, decaying, 1.3, 2.1, .23}, .1, {5, 4}, 2),
+      by_expression({2, decaying, 1.3, 2.1, .23, same}, .1, {5, 4}, 2);
+  const Vector u = field(built_in.size(), .25);
+  Vector r, other;
+  built_in.residual(u, r);
+  by_expression.residual(u, other);
+  for (std::size_t i = 0; i < r.size(); ++i)
+    EXPECT_NEAR(other[i], r[i], 1e-13);
+  EXPECT_NEAR(by_expression.energy(u), built_in.energy(u), 1e-13 * built_in.energy(u));
 }
 
 TEST(DoubleWellGalerkin, mass_is_the_square_of_its_root)

@@ -88,6 +88,12 @@ namespace plumbline::report
     EXPECT_TRUE(holds(weakened, ball + "ω(x) ω(x+ξ) J(|ξ|/δ) ")) << weakened;
     EXPECT_TRUE(holds(weakened, ", ω = 1 &lt; 2; kernel linear-decay; "));
     EXPECT_TRUE(holds(wells, "= b(x, t) in Ω ⊂ ℝ<sup>d</sup>, d = 1"));
+    EXPECT_TRUE(holds(wells, ", f(s) = c (1 − e<sup>−βs</sup>), "));
+    const std::string rational = equation_of({{"model", "double well"},
+                                              {"dimension", "2"},
+                                              {"kernel", "linear-decay"},
+                                              {"potential", "r/(1 + r)"}});
+    EXPECT_TRUE(holds(rational, ", f(s) = c g(βs), g(r) = r/(1 + r), ω<sub>d</sub>")) << rational;
   }
 
   TEST(Equation, IsShownOnThePageOfAKnownModelAlone)

@@ -53,6 +53,27 @@ TEST(Motion, template_is_a_torus_of_double_wells)
   EXPECT_NEAR(limit.mu, law.modulus(), 1e-14);
 }
 
+TEST(Motion, double_wells_have_any_potential)
+{
+  const Scene scene = torus({{"Material/c", "2"},
+                             {"Material/beta", "3"},
+                             {"Material/potential", "5*r/(1 + 2*r)"}}); // 5 c beta r, to 5/2 c
+  const physics::DoubleWell law = make_double_well(scene, .2);
+  EXPECT_NEAR(law.stiffness(), 30, 1e-13);
+  EXPECT_NEAR(law.c(), 5, 1e-14);
+  EXPECT_NEAR(law.potential(.7), 2 * 5 * 2.1 / 5.2, 1e-12);
+  const physics::DoubleWell glass =
+      make_double_well(torus({{"Material/E", "72e9"},
+                              {"Material/toughness", "8"},
+                              {"Material/potential", "5*r/(1 + 2*r)"}}),
+                       1e-3);
+  EXPECT_NEAR(glass.toughness(), 8, 1e-12);
+  EXPECT_NEAR(glass.modulus(), .4 * 72e9, 1e-2);
+  expect_refused({{"Material/potential", "ln(1 + r)"}},
+                 "Material/potential: f = 'ln(1 + r)' has no finite limit as r grows");
+  expect_refused({{"Material/potential", "c*r/(1 + r)"}}, "there is an unknown name 'c'");
+}
+
 TEST(Motion, expressions_have_the_time_in_them)
 {
   const Scene scene = wave();

@@ -222,49 +222,52 @@ TEST(MovingNodes, with_two_weights_to_a_bond_are_warned_of)
 TEST(MovingNodes, of_double_wells_have_the_slope_of_their_energy_for_a_force)
 {
   // where a bond's two weights differ, its energy is that of their mean, as the tangent is
-  for (const std::string method : {"FA", "PA-AC"})
-  {
-    const scene::Scene scene = scene_of(
-        "double-well", moved_wells(method, {{"Problem/solution", "0.3*sin(4*x)*y, 0.2*x*y*(1 + t)"},
-                                            {"Study/h", "0.2"}}));
-    ProblemsInTime<2>::Loads loads;
-    ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
-    const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
-    const auto equation = discretisation->motion(false);
-    EXPECT_EQ(equation->is_symmetric(), method == "FA");
-    std::vector<double> g = equation->drive(problems.at(0));
-    std::fill(g.begin(), g.begin() + static_cast<std::ptrdiff_t>(equation->size()), 0.);
-    const std::vector<double> u = equation->state(*problems.at(0).solution);
-    std::vector<double> v(u.size()), w(u.size()), force, along_v, along_w;
-    for (std::size_t i = 0; i < u.size(); ++i)
+  for (const std::string potential : {"exponential", "r/(1 + r)"})
+    for (const std::string method : {"FA", "PA-AC"})
     {
-      v[i] = std::sin(static_cast<double>(3 * i));
-      w[i] = std::cos(static_cast<double>(5 * i));
+      const scene::Scene scene =
+          scene_of("double-well",
+                   moved_wells(method, {{"Problem/solution", "0.3*sin(4*x)*y, 0.2*x*y*(1 + t)"},
+                                        {"Material/potential", potential},
+                                        {"Study/h", "0.2"}}));
+      ProblemsInTime<2>::Loads loads;
+      ProblemsInTime<2> problems(scene, 0, scene.study.series[0].levels[0], loads);
+      const auto discretisation = methods_of(scene)[0]->discretise(problems.at(0));
+      const auto equation = discretisation->motion(false);
+      EXPECT_EQ(equation->is_symmetric(), method == "FA");
+      std::vector<double> g = equation->drive(problems.at(0));
+      std::fill(g.begin(), g.begin() + static_cast<std::ptrdiff_t>(equation->size()), 0.);
+      const std::vector<double> u = equation->state(*problems.at(0).solution);
+      std::vector<double> v(u.size()), w(u.size()), force, along_v, along_w;
+      for (std::size_t i = 0; i < u.size(); ++i)
+      {
+        v[i] = std::sin(static_cast<double>(3 * i));
+        w[i] = std::cos(static_cast<double>(5 * i));
+      }
+      const double step = 2e-6;
+      const auto moved = [&](double by)
+      {
+        std::vector<double> there = u;
+        analysis::add(there, by, v);
+        return there;
+      };
+      equation->acceleration(u, g, force);
+      equation->tangent(u, g, v, along_v);
+      equation->tangent(u, g, w, along_w);
+      const double scale = analysis::norm(v) * analysis::norm(along_v);
+      EXPECT_NEAR(equation->product(w, along_v), equation->product(v, along_w), 1e-12 * scale);
+      const double slope =
+          (equation->energy(moved(step), g) - equation->energy(moved(-step), g)) / (2 * step);
+      const double difference = std::abs(slope + equation->product(force, v)) / std::abs(slope);
+      EXPECT_EQ(difference < 1e-7, method == "FA") << difference;
+      std::vector<double> after, before;
+      equation->acceleration(moved(step), g, after);
+      equation->acceleration(moved(-step), g, before);
+      analysis::add(after, -1, before);
+      // v·A v is that of A's symmetric part
+      EXPECT_NEAR(equation->product(v, after) / (2 * step), equation->product(v, along_v),
+                  1e-8 * scale);
     }
-    const double step = 2e-6;
-    const auto moved = [&](double by)
-    {
-      std::vector<double> there = u;
-      analysis::add(there, by, v);
-      return there;
-    };
-    equation->acceleration(u, g, force);
-    equation->tangent(u, g, v, along_v);
-    equation->tangent(u, g, w, along_w);
-    const double scale = analysis::norm(v) * analysis::norm(along_v);
-    EXPECT_NEAR(equation->product(w, along_v), equation->product(v, along_w), 1e-12 * scale);
-    const double slope =
-        (equation->energy(moved(step), g) - equation->energy(moved(-step), g)) / (2 * step);
-    const double difference = std::abs(slope + equation->product(force, v)) / std::abs(slope);
-    EXPECT_EQ(difference < 1e-7, method == "FA") << difference;
-    std::vector<double> after, before;
-    equation->acceleration(moved(step), g, after);
-    equation->acceleration(moved(-step), g, before);
-    analysis::add(after, -1, before);
-    // v·A v is that of A's symmetric part
-    EXPECT_NEAR(equation->product(v, after) / (2 * step), equation->product(v, along_v),
-                1e-8 * scale);
-  }
 }
 
 TEST(MovingNodes, hold_manufactured_fields_that_their_rule_maps_exactly)

@@ -94,10 +94,22 @@ namespace plumbline::scene
       void declare(Keys &keys, MaterialSection &material) const override
       {
         keys.add("c", material.c, any_number(),
-                 "c > 0 of the double-well potential f(s) = c (1 - exp(-beta s)), the energy of a "
-                 "broken bond. [force/length]");
+                 "c > 0 of the double-well potential f(s) = c g(beta s), by default c (1 - "
+                 "exp(-beta s)), whose limit is the energy of a broken bond. [force/length]");
         keys.add("beta", material.beta, any_number(),
                  "beta > 0 of the double-well potential. [1/length]");
+        constexpr const char *exponential = "exponential";
+        keys.add(
+            "potential", exponential, any_text(),
+            [&material](const std::string &text)
+            {
+              material.potential = text == exponential ? physics::WellPotential()
+                                                       : physics::WellPotential("f", text);
+            },
+            "g of the double-well potential f(s) = c g(beta s): exponential, 1 - exp(-r); or an "
+            "expression in r with +, -, *, /, ^, exp, ln, sqrt, sin, cos, atan, sinh, cosh and "
+            "tanh, smooth and concave with g(0) = 0, g'(0) > 0 and a finite limit as r grows, such "
+            "as r/(1 + r). With c = beta = 1 it is f itself.");
         keys.add(
             "toughness", "", any_text(),
             [&material](const std::string &text)
@@ -235,9 +247,15 @@ namespace plumbline::scene
         const double final_time = scene.time.final_time,
                      lipschitz = 6 * law.c_bar() / (horizon * horizon);
         std::vector<std::pair<std::string, std::string>> facts = {
-            {"f(s) = c (1 - exp(-β s)), stiffness p = cβ", "c = " + number(law.c()) +
-                                                               ", β = " + number(law.beta()) +
-                                                               ", p = " + number(law.stiffness())},
+            law.shape().is_exponential()
+                ? std::pair<std::string, std::string>("f(s) = c (1 - exp(-β s)), stiffness p = cβ",
+                                                      "c = " + number(law.c()) +
+                                                          ", β = " + number(law.beta()) +
+                                                          ", p = " + number(law.stiffness()))
+                : std::pair<std::string, std::string>(
+                      "f(∞), stiffness p = f'(0), r̄² = β s where bonds soften, β = p/f(∞)",
+                      number(law.c()) + ", " + number(law.stiffness()) + ", " +
+                          number(law.shape().softening())),
             {"moments M_1, M_2 of J", number(law.moment(1)) + ", " + number(law.moment(2))}};
         if (law.dim() == 1)
         {
@@ -283,11 +301,14 @@ namespace plumbline::scene
     const auto with = [&](double c, double beta)
     {
       return physics::DoubleWell(static_cast<int>(scene.domain.dimension), scene.kernel.profile, c,
-                                 beta, horizon);
+                                 beta, horizon, material.potential);
     };
     const auto modulus = material.modulus_of_bonds(scene.domain.dimension);
     if (!modulus)
-      return with(material.c, material.beta);
+    {
+      const double limit = material.potential.limit();
+      return with(material.c * limit, material.beta * material.potential.slope() / limit);
+    }
     // the toughness is proportional to c, the modulus to c β
     const physics::DoubleWell unit = with(1, 1);
     const double c = material.toughness.value() / unit.toughness();
