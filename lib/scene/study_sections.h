@@ -68,6 +68,7 @@ namespace plumbline::scene
   struct ReferenceSection
   {
     std::optional<std::string> method; ///< its name
+    double h = 0;                      ///< mesh size for all levels; 0: that of each level [length]
     Estimate estimate = Estimate::automatic;
     double tolerance = 0; ///< relative; 0: only reported
 

@@ -340,10 +340,19 @@ namespace plumbline::study
                     unsigned int n_levels, unsigned int n_jobs, unsigned int n_ranks)
   {
     Methods all = methods;
-    if (scene.reference.method)
-      all.push_back(find_method(available, *scene.reference.method, "Reference/method"));
     const method::ProblemSize coarse =
         measured_size(scene, scene.study.series.front().levels.front());
+    if (scene.reference.method)
+    {
+      const auto reference = find_method(available, *scene.reference.method, "Reference/method");
+      if (scene.reference.h == 0)
+        all.push_back(reference);
+      else
+        for (const auto &series : scene.study.series)
+          require_all(scene, {reference},
+                      at_level(coarse, {scene.reference.h, series.levels.front().horizon}),
+                      {n_jobs, n_ranks});
+    }
     for (const auto &series : scene.study.series)
       for (std::size_t i = 0; i < n_run(series, n_levels); ++i)
         try

@@ -41,6 +41,7 @@ namespace plumbline::study
 
   /// What records call such distances, with the name of the other method.
   constexpr const char *distance_to_finest = "L2 distance to the finest ";
+  constexpr const char *distance_to_reference = "L2 distance to the reference";
 
   /// Solutions by which a method is held against its own of the finest level.
   class OwnFinest

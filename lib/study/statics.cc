@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace plumbline::study
@@ -35,13 +36,25 @@ namespace plumbline::study
     constexpr auto own_finest = "own finest level"; ///< what the study keeps of it
     constexpr auto field_name = "solution";         ///< of records
 
+    /// A reference solution at Reference/h.
+    struct FixedReference
+    {
+      CellPieces cells;
+      ReferenceAverages solution;
+    };
+    /// Of each case and horizon.
+    using FixedReferences = std::map<std::pair<std::string, double>, FixedReference>;
+
     /// A case of a level, and what its solutions are held against.
     struct OpenCase : scene::Case
     {
       std::string name;
+      unsigned int number = 0; ///< of the case
       Targets targets = {};
+      const FixedReference *fixed = nullptr; ///< null: the reference has the level's mesh size
     };
     using OpenCases = std::vector<OpenCase>;
+    constexpr auto fixed_references = "references at Reference/h"; ///< what the study keeps of them
 
     /// All cases of a level.
     class LevelOfStatics
@@ -117,29 +130,55 @@ namespace plumbline::study
         OpenCases cases;
         const auto names = scene_.problem.case_names();
         for (unsigned int c = 0; c < names.size(); ++c)
-          cases.push_back({make_case(scene_, c, place_.level()), names[c]});
+          cases.push_back({make_case(scene_, c, place_.level()), names[c], c});
         for (OpenCase &one : cases)
         {
           if (scene_.reference.method)
-          {
-            const auto method =
-                find_method(available_, *scene_.reference.method, "Reference/method");
-            const auto points =
-                options_.points ? options_.points(one.problem) : std::vector<dealii::Point<2>>{};
-            ReferenceAverages reference = cost_of_estimates().timed(
-                [&] { return solve_reference(one, *method, scene_.reference, points); });
-            results_.references.push_back(placed(reference.estimate, place_, one.name));
-            if (!points.empty())
-              options_.on_values(reference.at_points, reference_record(place_, *method, one.name));
-            one.targets.reference = std::move(reference.averages);
-          }
+            set_reference(one);
           if (scene_.problem.local_solution == scene::LocalSolution::computed)
             one.targets.local = local_averages(one.problem);
         }
         return cases;
       }
 
-      /// Besides the reference.
+      void set_reference(OpenCase &one) const
+      {
+        const double h = scene_.reference.h;
+        if (h == 0)
+        {
+          one.targets.reference = solve_reference(one, one.name).averages;
+          return;
+        }
+        problem::Level level = place_.level();
+        level.h = h;
+        auto &all = place_.kept<FixedReferences>(fixed_references);
+        auto found = all.find({one.name, level.horizon});
+        if (found == all.end())
+        {
+          const scene::Case fine = make_case(scene_, one.number, level);
+          found = all.emplace(std::pair(one.name, level.horizon),
+                              FixedReference{comparison_pieces(fine.problem),
+                                             solve_reference(fine, one.name)})
+                      .first;
+        }
+        one.fixed = &found->second;
+        one.targets.reference =
+            transferred_averages(one.fixed->cells, one.fixed->solution.averages,
+                                 comparison_pieces(one.problem), one.problem.n_components);
+      }
+
+      ReferenceAverages solve_reference(const scene::Case &one, const std::string &name) const
+      {
+        const auto method = find_method(available_, *scene_.reference.method, "Reference/method");
+        const auto points =
+            options_.points ? options_.points(one.problem) : std::vector<dealii::Point<2>>{};
+        ReferenceAverages reference = cost_of_estimates().timed(
+            [&] { return study::solve_reference(one, *method, scene_.reference, points); });
+        results_.references.push_back(placed(reference.estimate, place_, name));
+        if (!points.empty())
+          options_.on_values(reference.at_points, reference_record(place_, *method, name));
+        return reference;
+      }
 
       /// At the first level that is run, for the first method of each side, where it is cheap.
       bool is_saving_due(const Method &method, const OpenCase &one, const Record &record) const
@@ -177,6 +216,10 @@ namespace plumbline::study
         const auto found = errors(scene_.study.norms, problem, solution, one.targets);
         for (const auto &[error, value] : found)
           run.set(error, value);
+        if (one.fixed != nullptr)
+          run.set(distance_to_reference,
+                  distance_across(comparison_pieces(problem), solution.averages, one.fixed->cells,
+                                  one.fixed->solution.averages, problem.n_components));
         enter_truncation(method, scene_.study.norms, problem, run);
         enter_energies(method, scene_.study.norms, problem, solution.nodes, solution.nodal, run);
         if (options_.has_fields)

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "study/comparison.h"
 #include "study/contradiction.h"
+#include "tests/study/space_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +45,42 @@ TEST(SelfConvergence, averages_over_nested_cells_are_means_of_their_parts)
     for (std::size_t i = 0; i < exact.size(); ++i)
       EXPECT_NEAR(moved[i], exact[i], 1e-13) << mesh << i;
   }
+}
+
+// the finest level of DGQ0 as a reference for all levels
+TEST(SelfConvergence, a_reference_of_one_mesh_size_is_a_finest_level)
+{
+  using in_space::with;
+  const in_space::Settings of_levels = {
+      {"Kernel/type", "linear-decay"}, {"Kernel/limit", "-1/2 Laplace"},
+      {"Problem/load", "x"},           {"Problem/solution", ""},
+      {"Problem/constraint", "0"},     {"Problem/local solution", "none"},
+      {"Methods/names", "FA, DGQ0"},   {"Study/regime", "m"},
+      {"Study/h", "0.25, 0.1"},        {"Study/horizon", "0.5"},
+      {"Study/norms", "averages L2"},  {"Study/decisive error", "averages L2 | own finest level"}};
+  const auto scene = [](const in_space::Settings &settings)
+  { return scene::parse_scene("test.prm", "", settings); };
+  const Records own = in_space::run(scene(of_levels)).records,
+                fixed = in_space::run(scene(with(of_levels, {{"Reference/method", "DGQ0"},
+                                                             {"Reference/h", "0.1"},
+                                                             {"Reference/estimate", "none"},
+                                                             {"Study/decisive error",
+                                                              "averages L2 | reference"}})))
+                            .records;
+  ASSERT_EQ(own.size(), 4u);
+  ASSERT_EQ(fixed.size(), 4u);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (const bool is_finest = own[i].key.level == 1; !is_finest)
+    {
+      const double distance = own[i]["L2 distance to the finest DGQ0"];
+      EXPECT_GT(distance, 1e-3);
+      EXPECT_NEAR(fixed[i][distance_to_reference], distance, 1e-12);
+      if (own[i].key.method == "DGQ0")
+        EXPECT_NEAR(fixed[i]["averages L2 | reference"], own[i]["averages L2 | own finest level"],
+                    1e-12);
+    }
+    else if (own[i].key.method == "DGQ0")
+      EXPECT_LT(fixed[i][distance_to_reference], 1e-8); // the root of what areas are rounded by
 }
 
 TEST(SelfConvergence, any_cells_keep_integrals_and_components_apart)

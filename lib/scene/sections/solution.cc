@@ -2,6 +2,8 @@
 #include "scene/study_sections.h"
 #include "scene/values.h"
 
+#include <limits>
+
 namespace plumbline::base
 {
   template <>
@@ -23,6 +25,10 @@ namespace plumbline::scene
         },
         "Galerkin method whose cell averages are the reference solution: none, Q1, Q2, Q3, ...; "
         "torus for transient double wells.");
+    keys.add("h", h, between(0, std::numeric_limits<double>::max()),
+             "Mesh size of the reference for all levels, in static problems in the plane; its "
+             "averages are transferred to the cells of each level by the areas that these share. "
+             "0: the mesh size of each level. [length]");
     keys.add("estimate", estimate,
              "Galerkin solutions whose error is estimated from outer quadrature, h/2, 2h and "
              "degree p+1: the reference, every solution, or none. The estimate can take ten to "
