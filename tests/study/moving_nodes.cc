@@ -174,8 +174,9 @@ TEST(MovingNodes, of_double_wells_move_as_those_of_the_lattice_do)
   for (const std::string method : {"FA", "IPA-AC", "IPA-AC-R2"})
     expect_alike("double-well", method, "consistent", wells_in_a_collar);
   Settings fading = wells_in_a_collar;
-  fading.insert(fading.end(),
-                {{"Material/boundary function", "smoothstep"}, {"Problem/load", "sin(t)*y, 0"}});
+  fading.insert(fading.end(), {{"Material/boundary function", "smoothstep"},
+                               {"Material/potential", "r/(1 + r)"},
+                               {"Problem/load", "sin(t)*y, 0"}});
   expect_alike("double-well", "PA-AC", "consistent", fading);
 }
 
