@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/node_cells.h"
 #include "method/quasistatic_fracture_model.h"
 
 #include <deal.II/base/point.h>
@@ -16,8 +17,12 @@ namespace plumbline::method
   struct BreakableBody
   {
     std::shared_ptr<QuasistaticFractureModel> body;
-    double h = 0; ///< of the lattice [length]
+    double h = 0; ///< of the lattice, or the mean of scattered nodes [length]
     std::vector<dealii::Point<dim>> nodes;
+    std::shared_ptr<const geometry::NodeCells<dim>> cells; ///< of scattered nodes; null: a lattice
+    /// Of scattered nodes: the energy of all bonds across a straight cut at their critical stretch,
+    /// over G.
+    double cut_energy = 0;
     std::vector<double> toughness;                       ///< G of each node [force/length]
     std::vector<double> toughness_of_bonds;              ///< G of each bond [force/length]
     std::vector<std::array<unsigned int, 2>> bonds, cut; ///< their nodes; of those the notch cuts

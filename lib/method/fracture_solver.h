@@ -2,6 +2,7 @@
 
 #include "geometry/ball_cell.h"
 #include "geometry/cracks.h"
+#include "geometry/node_cells.h"
 #include "geometry/of_dimension.h"
 #include "method/breakable_body.h"
 #include "method/breaking_motion.h"
@@ -11,6 +12,7 @@
 #include "problem/surface_terms.h"
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace plumbline::method
@@ -42,15 +44,19 @@ namespace plumbline::method
     };
     std::vector<Interface> interfaces = {};
     double trapping = 1; ///< G is divided by it for critical stretches, see problem::Criterion
+    /// Of scattered nodes, all of them free: the body is the union of the cells instead of the
+    /// domain, and nodes in the grips' boxes are constrained; null: a lattice. In the plane.
+    std::shared_ptr<const geometry::NodeCells<dim>> cells = {};
   };
 
-  /// What makes bodies whose bonds can break, on the nodes of a lattice.
+  /// What makes bodies whose bonds can break, on the nodes of a lattice or on scattered nodes.
   class FractureSolver
   {
   public:
     virtual ~FractureSolver() = default;
 
-    /// @param influence  1/r, ∫K|ξ|² = dim
+    /// @param influence  ∫K|ξ|² = dim
+    /// @param h          of the lattice
     /// @throws InputError  h that does not fit the boxes; grips without a node; G <= 0; a notch
     /// through a node
     /// @throws NumericalError  the body is a mechanism
@@ -65,7 +71,7 @@ namespace plumbline::method
                                             geometry::Backend backend, problem::Stretch stretch,
                                             problem::GrowthSolver solver) const = 0;
 
-    /// A body in the plane in motion; `constrained` of the solid is not used.
+    /// A body in the plane in motion, on a lattice; `constrained` of the solid is not used.
     /// @throws InputError  as breakable_body
     virtual MovingBody moving_body(const BreakingSolid<2> &solid,
                                    const physics::Kernel<2> &influence, double h,

@@ -5,13 +5,13 @@
 namespace plumbline::physics
 {
   template <int dim>
-  double crossing_energy(double horizon, const Lame &lame)
+  double crossing_energy(const Kernel<dim> &influence, const Lame &lame)
   {
-    if (dim == 2)
-      return 4 * (.75 / M_PI * horizon) * (lame.lambda + lame.mu);
-    return .6 * horizon * (3 * lame.lambda + 2 * lame.mu);
+    const double beta = influence.constant() * std::pow(influence.horizon(), dim + 3) *
+                        influence.profile().moment(dim + 2);
+    return (dim == 2 ? 2 : M_PI) * beta * (dim * lame.lambda + 2 * lame.mu);
   }
 
-  template double crossing_energy<2>(double, const Lame &);
-  template double crossing_energy<3>(double, const Lame &);
+  template double crossing_energy(const Kernel<2> &, const Lame &);
+  template double crossing_energy(const Kernel<3> &, const Lame &);
 } // namespace plumbline::physics

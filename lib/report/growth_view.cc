@@ -84,9 +84,12 @@ namespace plumbline::report
            "part of the dead loads that acts on connected nodes at the end: nodes that "
            "come loose lose their loads"},
           {"s0", "critical stretch of bonds, the minimum over all materials"},
-          {"G_h / G", "energy of all bonds across a straight " +
-                          std::string(is_in_space ? "plane" : "line") +
-                          " of the lattice at the critical stretch, relative to G"},
+          {"G_h / G",
+           "energy of all bonds across a straight " +
+               std::string(is_in_space                   ? "plane of the lattice"
+                           : study::is_scattered(record) ? "line (the mean over its directions)"
+                                                         : "line of the lattice") +
+               " at the critical stretch, relative to G"},
           {"G_peak / G", "energy release rate at which a crack grows in a strip of this lattice, "
                          "relative to G; G was divided by this factor"},
           {"unpaired", "broken bonds whose mirror image about the midline is intact"},
@@ -228,19 +231,32 @@ namespace plumbline::report
                           " have their own G (Fracture/interfaces).";
     }
 
+    /// By G, with its source.
+    std::string critical_stretch(const Record &record)
+    {
+      const bool is_in_space = study::is_in_space(record);
+      const std::string &influence = record.text("influence function");
+      if (influence == "1/r" || influence == "bond-tensor")
+        return is_in_space ? "s0² = 5G/(9kδ) with the bulk modulus k (Silling & Askari 2005)"
+                           : "s0² = πG/(3δ(λ + μ)) (Fan et al. 2022, eq. (2.25))";
+      return std::string(is_in_space ? "s0² = G/(πβ(3λ + 2μ)) with β = ∫K r⁵ dr"
+                                     : "s0² = G/(4β(λ + μ)) with β = ∫K r⁴ dr") +
+             " of the influence function K, " + influence;
+    }
+
     /// With what makes it again.
     std::string model(const Record &record)
     {
       const std::string &seeds = record.text("seeds"), &field = record.text("field");
       const bool is_in_space = study::is_in_space(record);
-      return "Model: " + record.text("model") +
-             ". A bond breaks at the critical stretch s0, s0² = " +
-             (is_in_space ? "5G/(9kδ) with the bulk modulus k" : "πG/(3δ(λ + μ))") +
-             ", at which all bonds across a " + (is_in_space ? "plane" : "straight") +
-             " cut of the continuum store the energy G (" +
-             (is_in_space ? "Silling & Askari 2005" : "Fan et al. 2022, eq. (2.25)") +
-             "; exact where λ = μ). On this lattice they store " + rounded(record["G_h / G"]) +
-             " G, and a crack needs more than that to pass from one column of nodes to the next" +
+      const bool is_scattered = study::is_scattered(record);
+      return "Model: " + record.text("model") + ". A bond breaks at the critical stretch s0, " +
+             critical_stretch(record) + ", at which all bonds across a " +
+             (is_in_space ? "plane" : "straight") +
+             " cut of the continuum store the energy G; exact where λ = μ. " +
+             (is_scattered ? "Between these nodes" : "On this lattice") + " they store " +
+             rounded(record["G_h / G"]) + " G, and a crack needs more than that to pass from one " +
+             (is_scattered ? "node to the next" : "column of nodes to the next") +
              (record.has("G_peak / G") ? ": " + rounded(record["G_peak / G"]) +
                                              " G, found in a strip; s0 was divided by the square "
                                              "root of this factor (Fracture/"
@@ -328,9 +344,8 @@ namespace plumbline::report
                           ? "Advance of the crack front: the mean over the layers of nodes. "
                           : "") +
               "The crack consists of the cell faces whose two nodes have separated; its tip is the "
-              "end of these faces that is farthest from the notch tip. The lattice traps the tip "
-              "at "
-              "each column of nodes and releases it at a lower load.");
+              "end of these faces that is farthest from the notch tip. The nodes trap the tip, a "
+              "lattice at each of its columns, and release it at a lower load.");
       chart.data =
           data_of(events, is_in_space ? std::vector<std::string>{"event", "critical load", "load",
                                                                  "way", "way min", "way max"}

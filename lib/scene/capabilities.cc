@@ -125,8 +125,9 @@ namespace plumbline::scene
         {base::word(Analysis::crack),
          of_double_wells | Capabilities{C::lattice, C::notch, C::dynamic, C::nonlocal}},
         {base::word(Analysis::growth),
-         of_damage() | Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
-                                    C::nonlocal, C::space, C::dynamic}},
+         of_damage() | of_meshes() |
+             Capabilities{C::lattice, C::free_boundary, C::heterogeneous, C::dilatation,
+                          C::nonlocal, C::space, C::dynamic}},
         {base::word(Analysis::strip), {C::lattice, C::nonlocal}},
         {base::word(Analysis::stability), all_but({C::line})},
         {base::word(Analysis::dispersion),

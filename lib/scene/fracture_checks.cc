@@ -50,6 +50,57 @@ namespace plumbline::scene
     }
   } // namespace
 
+  namespace
+  {
+    /// That a critical stretch exists.
+    /// @param given  the key that needs it
+    void check_bonds(const Scene &scene, const std::string &given)
+    {
+      const KernelSection &kernel = scene.kernel;
+      const bool is_lps = scene.material.model == &lps();
+      if (!is_lps &&
+          (scene.material.model != &bond_based() ||
+           kernel.structure != physics::Structure::tensor || kernel.limit != Limit::navier ||
+           !kernel.coefficient.empty() || !kernel.materials.empty()))
+        throw InputError(given +
+                         " needs Material/model = LPS (bond-based for nu = 1/4 in plane strain and "
+                         "in three dimensions), or Kernel/type = bond-tensor ... with Kernel/limit "
+                         "= Navier and no Kernel/coefficient");
+      constexpr int n = 1000; // samples of the profile
+      for (int k = 1; k <= n; ++k)
+        if (const double t = k / static_cast<double>(n); kernel.profile(t) < 0)
+          throw InputError(
+              "Kernel/type = " + kernel.type + " is negative at r = " + short_number(t) +
+              " horizons: such bonds push when they are stretched, so that no critical "
+              "stretch follows from Fracture/toughness; give a profile that is not "
+              "negative");
+      if (!is_inverse_distance(kernel) && scene.fracture.surface_terms == SurfaceTerms::published)
+        throw InputError(
+            "Fracture/surface terms = published takes normals from bonds of Kernel/type "
+            "= 1/r, which is " +
+            kernel.type + "; write uncorrected, none or consistent");
+    }
+
+    /// Scattered nodes in the cells of a mesh.
+    void check_fracture_on_mesh(const Scene &scene, const std::string &given)
+    {
+      const auto needs = [&](bool is_good, const std::string &what)
+      {
+        if (!is_good)
+          throw InputError(given + " with Domain/mesh = " + scene.domain.mesh.name + " needs " +
+                           what + ", or Domain/mesh = lattice");
+      };
+      needs(!scene.domain.is_in_space(), "Domain/dimension = 2");
+      needs(!scene.time.is_dynamic(), "Time/final time = 0");
+      needs(!scene.fracture.is_corrected(), "Fracture/surface terms = uncorrected");
+      needs(scene.fracture.criterion == Criterion::toughness,
+            "Fracture/criterion = toughness (calibrated measures a crack along a row of a "
+            "lattice)");
+      needs(!scene.methods.nodes.are_vertices(),
+            "Methods/nodes = mesh (centroids of its cells), centres or a file .csv");
+    }
+  } // namespace
+
   void check_fracture(const Scene &scene)
   {
     const FractureSection &fracture = scene.fracture;
@@ -68,12 +119,10 @@ namespace plumbline::scene
         !((domain.is_in_space() ? toughness.at({}, 0) : toughness({})) > 0))
       throw InputError(given + " must be positive: it is the fracture energy per unit area");
     needs(!scene.crack.is_there(), "Crack/notch = 0: the notch is Domain/cracks");
-    needs(scene.material.model == &lps(),
-          "Material/model = LPS (bond-based for nu = 1/4 in plane strain and in three dimensions)");
-    needs(is_inverse_distance(scene.kernel),
-          "Kernel/type = 1/r: the critical stretch is known for that influence function");
-    needs(domain.mesh.is_lattice(), "Domain/mesh = lattice");
     const bool is_moving = scene.time.is_dynamic();
+    check_bonds(scene, given);
+    if (!domain.mesh.is_lattice())
+      check_fracture_on_mesh(scene, given);
     needs(domain.is_free_body && (is_moving || (!domain.is_floating && !domain.fixed.empty())),
           "Domain/boundary = free and Domain/fixed, the grips");
     needs(domain.outside.empty() && !domain.collar,
@@ -91,8 +140,9 @@ namespace plumbline::scene
       needs(physics::Expression("Problem/load", scene.problem.loads.front().expression, names)
                     .n_components() == scene.n_components(),
             "Problem/load of " + std::to_string(scene.n_components()) + " components");
-    needs(scene.methods.names.size() == 1 && scene.methods.nodes.kind() == NodeKind::centres,
-          "one meshfree method (Methods/names) on centres (Methods/nodes)");
+    needs(scene.methods.names.size() == 1 &&
+              (!domain.mesh.is_lattice() || scene.methods.nodes.are_lattice_centres()),
+          "one meshfree method (Methods/names) on centres that are not moved (Methods/nodes)");
     needs(
         !domain.cracks.empty() || (!is_moving && !domain.is_in_space()),
         "an initial notch in Domain/cracks, from its mouth to its tip (only quasi-static fracture "

@@ -1,7 +1,9 @@
+#include "geometry/cell_sides.h"
 #include "study/growth.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -14,10 +16,42 @@ namespace plumbline::study
   {
     constexpr double nearest = 1.01; // mesh sizes, of next neighbours
 
-    bool are_next(const GrowthModel &model, const std::array<unsigned int, 2> &bond)
+    using Ends = std::array<Point<2>, 2>;
+
+    /// The sides between cells of next neighbours.
+    class Sides
     {
-      return model.nodes[bond[0]].distance(model.nodes[bond[1]]) < nearest * model.h;
-    }
+    public:
+      explicit Sides(const GrowthModel &model) : model_(model)
+      {
+        if (model.cells)
+          for (const geometry::CellSide &side : geometry::shared_sides(*model.cells))
+            shared_[side.nodes] = side.ends;
+      }
+
+      /// The side that the cells of a bond's nodes share, if they do.
+      std::optional<Ends> between(std::array<unsigned int, 2> bond) const
+      {
+        if (model_.cells)
+        {
+          std::sort(bond.begin(), bond.end());
+          const auto found = shared_.find(bond);
+          return found == shared_.end() ? std::nullopt : std::optional<Ends>(found->second);
+        }
+        const Point<2> &a = model_.nodes[bond[0]], &b = model_.nodes[bond[1]];
+        if (a.distance(b) >= nearest * model_.h)
+          return {};
+        dealii::Tensor<1, 2> half;
+        half[0] = -.5 * (b[1] - a[1]);
+        half[1] = .5 * (b[0] - a[0]);
+        const Point<2> middle = a + .5 * (b - a);
+        return Ends{middle - half, middle + half};
+      }
+
+    private:
+      const GrowthModel &model_;
+      std::map<std::array<unsigned int, 2>, Ends> shared_; ///< of scattered nodes
+    };
 
     /// Of two places the one that is farther from the notch's tip; of two that are mirror images,
     /// which rounding tells apart, the upper one.
@@ -31,24 +65,11 @@ namespace plumbline::study
       return std::make_pair(a[1], a[0]) > std::make_pair(b[1], b[0]);
     }
 
-    /// The side that the cells of two next neighbours share.
-    std::array<Point<2>, 2> side_between(const GrowthModel &model,
-                                         const std::array<unsigned int, 2> &bond)
-    {
-      const Point<2> &a = model.nodes[bond[0]], &b = model.nodes[bond[1]];
-      dealii::Tensor<1, 2> half;
-      half[0] = -.5 * (b[1] - a[1]);
-      half[1] = .5 * (b[0] - a[0]);
-      const Point<2> middle = a + .5 * (b - a);
-      return {middle - half, middle + half};
-    }
-
     /// Ends of sides that are connected to the notch.
     class Joined
     {
     public:
-      Joined(const GrowthModel &model, const std::vector<std::array<Point<2>, 2>> &notch)
-          : model_(&model)
+      Joined(const GrowthModel &model, const std::vector<Ends> &notch) : model_(&model)
       {
         for (const auto &ends : notch)
           insert(ends);
@@ -71,8 +92,6 @@ namespace plumbline::study
       }
 
     private:
-      using Ends = std::array<Point<2>, 2>;
-
       /// The axis that a side is along.
       unsigned int axis(const Ends &ends) const
       {
@@ -82,12 +101,21 @@ namespace plumbline::study
       void insert(const Ends &ends)
       {
         for (const Point<2> &end : ends)
-          places_[axis(ends)].insert(lattice_place(*model_, end));
+          if (model_->cells)
+            points_.push_back(end);
+          else
+            places_[axis(ends)].insert(lattice_place(*model_, end));
       }
 
-      /// At an end, or where a crack steps from one row to the next without parting neighbours.
+      /// At an end, or where a crack steps from one row to the next without parting neighbours; of
+      /// scattered nodes, within a mesh size.
       bool touches(const Ends &ends) const
       {
+        if (model_->cells)
+          return std::any_of(
+              points_.begin(), points_.end(),
+              [&](const Point<2> &point)
+              { return std::min(point.distance(ends[0]), point.distance(ends[1])) < model_->h; });
         constexpr long step = 2; // one mesh size
         const unsigned int along = axis(ends);
         for (const Point<2> &end : ends)
@@ -107,26 +135,46 @@ namespace plumbline::study
 
       const GrowthModel *model_;
       std::array<std::set<LatticePlace<2>>, 2> places_; ///< of sides along x and along y
+      std::vector<Point<2>> points_;                    ///< of scattered nodes
     };
   } // namespace
 
   namespace
   {
     /// Of the first next neighbours that part, if any do.
-    std::vector<std::array<Point<2>, 2>> first_side(const GrowthModel &model,
-                                                    const std::vector<Event> &events)
+    std::vector<Ends> first_side(const GrowthModel &model, const Sides &sides,
+                                 const std::vector<Event> &events)
     {
       for (const Event &event : events)
         for (const std::size_t b : event.bonds)
-          if (are_next(model, model.bonds[b]))
-            return {side_between(model, model.bonds[b])};
+          if (const auto side = sides.between(model.bonds[b]))
+            return {*side};
       return {};
+    }
+
+    /// Of all sides, projected onto the x-axis, once each.
+    double projected_width(const std::vector<CrackSide> &sides, double h)
+    {
+      constexpr double rounding = 1e-9; // of h
+      std::vector<std::array<double, 2>> intervals;
+      for (const CrackSide &side : sides)
+        if (const auto [from, to] = std::minmax(side.ends[0][0], side.ends[1][0]);
+            to - from > rounding * h)
+          intervals.push_back({from, to});
+      std::sort(intervals.begin(), intervals.end());
+      double width = 0, covered = -std::numeric_limits<double>::infinity();
+      for (const auto &[from, to] : intervals)
+      {
+        width += std::max(0., to - std::max(from, covered));
+        covered = std::max(covered, to);
+      }
+      return width;
     }
   } // namespace
 
   std::optional<Point<2>> find_nucleus(const GrowthModel &model, const std::vector<Event> &events)
   {
-    const auto side = first_side(model, events);
+    const auto side = first_side(model, Sides(model), events);
     if (side.empty())
       return {};
     return side[0][0] + .5 * (side[0][1] - side[0][0]);
@@ -135,17 +183,18 @@ namespace plumbline::study
   CrackPath find_path(const GrowthModel &model, const std::vector<Event> &events)
   {
     CrackPath path;
+    const Sides sides(model);
     for (const auto &bond : model.cut)
-      if (are_next(model, bond))
-        path.notch.push_back(side_between(model, bond));
-    Joined joined(model, path.notch.empty() ? first_side(model, events) : path.notch);
+      if (const auto side = sides.between(bond))
+        path.notch.push_back(*side);
+    Joined joined(model, path.notch.empty() ? first_side(model, sides, events) : path.notch);
     Point<2> tip = model.notch_tip;
     for (std::size_t e = 0; e < events.size(); ++e)
     {
       const std::size_t before = path.sides.size();
       for (const std::size_t b : events[e].bonds)
-        if (are_next(model, model.bonds[b]))
-          path.sides.push_back({side_between(model, model.bonds[b]), e, false});
+        if (const auto side = sides.between(model.bonds[b]))
+          path.sides.push_back({*side, e, false});
       if (path.sides.size() > before)
         joined.grow(path.sides, e);
       for (const CrackSide &side : path.sides)
@@ -154,13 +203,7 @@ namespace plumbline::study
             tip = end;
       path.tips.push_back(tip);
     }
-    std::set<long> columns;
-    for (const CrackSide &side : path.sides)
-      if (const LatticePlace<2> a = lattice_place(model, side.ends[0]),
-          b = lattice_place(model, side.ends[1]);
-          a[0] != b[0])
-        columns.insert(a[0] + b[0]);
-    path.width = static_cast<double>(columns.size()) * model.h;
+    path.width = projected_width(path.sides, model.h);
     for (const CrackSide &side : path.sides)
       path.n_elsewhere += side.is_joined ? 0 : 1;
     return path;

@@ -142,9 +142,31 @@ namespace plumbline::study
                                                   { return all.count(key(bond, true)) == 0; }));
   }
 
+  namespace
+  {
+    /// Of scattered nodes: half the rises of a node's bonds over the area of its cell, the median
+    /// over all nodes.
+    double bonds_across_cells(const GrowthModel &model)
+    {
+      std::vector<double> rises(model.nodes.size(), 0);
+      for (const auto *const bonds : {&model.bonds, &model.cut})
+        for (const auto &bond : *bonds)
+          for (const unsigned int node : bond)
+            rises[node] += .5 * model.h *
+                           std::abs(model.nodes[bond[1]][1] - model.nodes[bond[0]][1]) /
+                           model.cells->area[node];
+      const auto middle = rises.begin() + static_cast<std::ptrdiff_t>(rises.size() / 2);
+      std::nth_element(rises.begin(), middle, rises.end());
+      return *middle;
+    }
+  } // namespace
+
   template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model)
   {
+    if constexpr (dim == 2)
+      if (model.cells)
+        return bonds_across_cells(model);
     // for each node the sum of the rises, in h, of its bonds that point to larger y; the result is
     // the maximum, in space of the means over the columns of nodes along z
     std::vector<double> reach(model.nodes.size(), 0);
@@ -412,7 +434,8 @@ namespace plumbline::study
       record.set("nucleus y", found.origin[1] + found.notch_tip[1], "length");
     }
     record.set("apart", static_cast<double>(path.n_elsewhere));
-    record.set("unpaired", static_cast<double>(found.n_unpaired));
+    if (found.n_unpaired)
+      record.set("unpaired", static_cast<double>(*found.n_unpaired));
     set_end(growth, "force", record);
     add_events(growth.events, {"tip x", "tip y", "way"}, places, record);
     add_path(found, record);
@@ -506,6 +529,11 @@ namespace plumbline::study
     return record.curves.count("front") > 0;
   }
 
+  bool is_scattered(const Record &record)
+  {
+    return record.text("nodes") == scattered_nodes;
+  }
+
   bool is_corrected(const Record &record)
   {
     const std::string &terms = record.text("surface terms");
@@ -541,8 +569,9 @@ namespace plumbline::study
         "load",
         "bonds break irreversibly, by their tensile stretch alone; crack faces transmit pressure "
         "only through intact bonds",
-        std::string(is_in_space(record)
-                        ? "one lattice: cracks tend to follow its planes"
+        std::string(is_in_space(record) ? "one lattice: cracks tend to follow its planes"
+                    : is_scattered(record)
+                        ? "two dimensions, one set of nodes, on which the path of cracks depends"
                         : "two dimensions, one lattice: cracks tend to follow its rows and "
                           "columns") +
             ", the more so the fewer neighbours nodes have (Study/m)",

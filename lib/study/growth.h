@@ -41,9 +41,9 @@ namespace plumbline::study
   std::optional<dealii::Point<2>> find_nucleus(const GrowthModel &model,
                                                const std::vector<analysis::Event> &events);
 
-  /// Where a crack went. It is where next neighbours have parted: sides of cells that hang together
-  /// with the notch, at their ends or from one row to the next; without a notch, with the first
-  /// side.
+  /// Where a crack went. It is where next neighbours have parted, on scattered nodes those whose
+  /// Voronoi cells share a side: sides of cells that hang together with the notch, at their ends or
+  /// from one row to the next; without a notch, with the first side.
   struct CrackPath
   {
     std::vector<std::array<dealii::Point<2>, 2>> notch; ///< sides that it cuts
@@ -85,7 +85,8 @@ namespace plumbline::study
                                        const std::vector<std::size_t> &broken);
 
   /// Number of bonds that a crack normal to y breaks per column of nodes: 18 at m = 3 with full
-  /// areas; in space per node of the crack plane, averaged over the thickness.
+  /// areas; on scattered nodes per h of its length; in space per node of the crack plane, averaged
+  /// over the thickness.
   template <int dim>
   double bonds_across(const method::BreakableBody<dim> &model);
 
@@ -119,10 +120,10 @@ namespace plumbline::study
   struct GrowthFindings : CommonFindings<2>
   {
     CrackPath path;
-    std::vector<double> toughness; ///< see GrowthModel
-    dealii::Point<2> origin;       ///< that places count from, see scene::DomainSection
-    double plane_modulus = 0;      ///< mean of E/(1 - nu²) over the nodes [force/length²]
-    std::size_t n_unpaired = 0;
+    std::vector<double> toughness;         ///< see GrowthModel
+    dealii::Point<2> origin;               ///< that places count from, see scene::DomainSection
+    double plane_modulus = 0;              ///< mean of E/(1 - nu²) over the nodes [force/length²]
+    std::optional<std::size_t> n_unpaired; ///< on a lattice
   };
 
   /// The same as a record.
@@ -188,4 +189,7 @@ namespace plumbline::study
 
   /// A record is of a body in space.
   bool is_in_space(const Record &record);
+
+  constexpr auto scattered_nodes = "scattered"; ///< text "nodes" of a record
+  bool is_scattered(const Record &record);
 } // namespace plumbline::study

@@ -8,6 +8,8 @@
 #include "method/fracture_solver.h"
 #include "physics/crossing_energy.h"
 #include "physics/expression.h"
+#include "scene/mesh.h"
+#include "scene/models/model.h"
 #include "scene/origin.h"
 #include "scene/problem.h"
 #include "study/breaking_analysis.h"
@@ -54,19 +56,31 @@ namespace plumbline::study
       return result;
     }
 
+    /// The constants of the solid; of bond tensors those of their local limit.
+    std::function<physics::Lame(const Point<2> &)> constants(const scene::Scene &scene)
+    {
+      if (scene.material.model->is_state_based())
+        return scene.material.lame();
+      constexpr double any = 1; // horizon, of which the limit does not depend
+      const physics::LocalLimit limit =
+          scene.domain.is_in_space() ? scene.material.model->kernel_in_space(scene, any).limit()
+                                     : scene.material.model->kernel(scene, any).limit();
+      return [lame = physics::Lame{limit.mu, limit.mu}](const Point<2> &) { return lame; };
+    }
+
     void set_boxes(const scene::Scene &scene, method::BreakingSolid<2> &solid)
     {
       solid.domain = scene.domain.boxes;
       solid.grips = scene.domain.fixed;
       solid.unbreaking = scene.fracture.unbreaking;
-      solid.material = scene.material.lame();
+      solid.material = constants(scene);
     }
     void set_boxes(const scene::Scene &scene, method::BreakingSolid<3> &solid)
     {
       solid.domain = scene.domain.solid;
       solid.grips = through_thickness(scene.domain.fixed, solid.domain);
       solid.unbreaking = through_thickness(scene.fracture.unbreaking, solid.domain);
-      solid.material = [lame = scene.material.lame()({})](const Point<3> &) { return lame; };
+      solid.material = [lame = constants(scene)({})](const Point<3> &) { return lame; };
     }
 
     /// @param trapping  G is divided by it
@@ -76,6 +90,13 @@ namespace plumbline::study
     {
       method::BreakingSolid<dim> solid;
       set_boxes(scene, solid);
+      if constexpr (dim == 2)
+        if (!scene.domain.mesh.is_lattice())
+        {
+          const problem::Level &level = scene.study.series.front().levels.front();
+          solid.cells = std::make_shared<const geometry::NodeCells<2>>(
+              scene::make_node_cells(scene, level, scene::make_mesh(scene, level)));
+        }
       solid.notch = scene.domain.cracks;
       const physics::Expression toughness("Fracture/toughness", scene.fracture.toughness,
                                           scene.names(horizon));
@@ -128,6 +149,8 @@ namespace plumbline::study
     /// @param is_bonds  no node has a dilatation
     std::string model_words(const scene::Scene &scene, bool is_bonds)
     {
+      if (!scene.material.model->is_state_based())
+        return "bond-based: bond tensors";
       if (is_bonds && !scene.fracture.is_corrected())
         return "bond-based: for lambda = mu the dilatation term vanishes";
       return std::string(is_bonds ? "bonds (lambda = mu) " : "LPS ") +
@@ -155,7 +178,7 @@ namespace plumbline::study
                          const physics::Kernel<2> &influence, double h)
     {
       const int m = static_cast<int>(std::ceil(influence.horizon() / h - 1e-9)), height = 8 * m;
-      const physics::Lame lame = scene.material.lame()(
+      const physics::Lame lame = constants(scene)(
           scene.domain.cracks.empty() ? Point<2>(middle(scene.domain.boxes.include, 0),
                                                  middle(scene.domain.boxes.include, 1))
                                       : scene.domain.cracks.front().back());
@@ -173,7 +196,7 @@ namespace plumbline::study
     /// The mean of E/(1 - nu²) in plane strain over nodes.
     double mean_plane_modulus(const scene::Scene &scene, const std::vector<Point<2>> &nodes)
     {
-      const auto lame = scene.material.lame();
+      const auto lame = constants(scene);
       double sum = 0;
       for (const Point<2> &node : nodes)
       {
@@ -209,9 +232,12 @@ namespace plumbline::study
         return {};
       PlacesBetweenNodes places{model.nodes, {}, {}};
       const double half = .5 * model.h;
-      for (const Point<2> &x : model.nodes)
-        places.cells.push_back({x + Point<2>(-half, -half), x + Point<2>(half, -half),
-                                x + Point<2>(half, half), x + Point<2>(-half, half)});
+      if (model.cells)
+        places.cells = model.cells->pieces;
+      else
+        for (const Point<2> &x : model.nodes)
+          places.cells.push_back({x + Point<2>(-half, -half), x + Point<2>(half, -half),
+                                  x + Point<2>(half, half), x + Point<2>(-half, half)});
       for (const auto &bond : model.bonds)
         places.middles_of_bonds.push_back(model.nodes[bond[0]] +
                                           .5 * (model.nodes[bond[1]] - model.nodes[bond[0]]));
@@ -229,7 +255,7 @@ namespace plumbline::study
     bool is_of_bonds(const scene::Scene &scene)
     {
       constexpr int n = 16; // along each side
-      const auto material = scene.material.lame();
+      const auto material = constants(scene);
       if (scene.domain.is_in_space()) // where it is homogeneous
       {
         const physics::Lame lame = material({});
@@ -308,7 +334,7 @@ namespace plumbline::study
   GrowthSize expected_size(const scene::Scene &scene, unsigned int n_jobs)
   {
     const problem::Level &level = scene.study.series.front().levels.front();
-    const double m = level.horizon / level.h;
+    double m = level.horizon / level.h;
     const auto &cracks = scene.domain.cracks;
     const bool is_in_space = scene.domain.is_in_space(), has_notch = !cracks.empty();
     const Point<2> tip = has_notch ? cracks.front().back() : Point<2>(),
@@ -324,9 +350,19 @@ namespace plumbline::study
                           : tip[0] >= mouth[0] ? box.upper[0] - tip[0]
                                                : tip[0] - box.lower[0]);
     };
-    if (!is_in_space)
+    if (scene.domain.mesh.is_lattice() && !is_in_space)
       for (const geometry::Box &box : scene.domain.boxes.include)
         add_box(box);
+    if (!scene.domain.mesh.is_lattice())
+    {
+      const geometry::Mesh mesh = scene::make_mesh(scene, level);
+      add_box(geometry::bounding_box(mesh));
+      if (scene.methods.nodes.kind() == scene::NodeKind::mesh)
+      {
+        m *= std::sqrt(static_cast<double>(mesh.n_wholes()) / size.n_nodes);
+        size.n_nodes = static_cast<double>(mesh.n_wholes());
+      }
+    }
     for (const geometry::Cuboid &box : scene.domain.solid.include)
     {
       const double n = size.n_nodes;
@@ -407,6 +443,8 @@ namespace plumbline::study
       record.texts["surface terms"] = base::word(rules.surface_terms);
       record.texts["toughness of bonds"] = base::word(rules.of_bonds);
       record.texts["solver"] = base::word(solver);
+      if (model.cells)
+        record.texts["nodes"] = scattered_nodes;
       record.set("min reaction", rules.least_reaction);
       record.set("max load", rules.largest_load);
       record.set("interfaces", static_cast<double>(rules.interfaces.size()));
@@ -419,16 +457,16 @@ namespace plumbline::study
     /// At which a bond breaks whose ends are both like one node, the smallest of all nodes.
     template <int dim>
     double critical_stretch(const scene::Scene &scene, const method::BreakableBody<dim> &model,
-                            double horizon, double trapping)
+                            const physics::Kernel<dim> &influence, double trapping)
     {
-      const auto lame = scene.material.lame();
+      const auto lame = constants(scene);
       double smallest = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < model.nodes.size(); ++i)
       {
         const Point<2> here(model.nodes[i][0], model.nodes[i][1]); // in space constants are alike
         smallest =
             std::min(smallest, model.toughness[i] /
-                                   (trapping * physics::crossing_energy<dim>(horizon, lame(here))));
+                                   (trapping * physics::crossing_energy(influence, lame(here))));
       }
       return std::sqrt(smallest);
     }
@@ -506,7 +544,8 @@ namespace plumbline::study
       found.toughness = model.toughness;
       found.origin = scene.domain.origin;
       found.plane_modulus = mean_plane_modulus(scene, model.nodes);
-      found.n_unpaired = n_unpaired(model, broken, 1, middle(scene.domain.boxes.include, 1));
+      if (!model.cells)
+        found.n_unpaired = n_unpaired(model, broken, 1, middle(scene.domain.boxes.include, 1));
       return found;
     }
 
@@ -556,6 +595,7 @@ namespace plumbline::study
       const problem::GrowthSolver solver = expected_size(scene).solver;
       const auto influence = physics::influence_function<dim>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
+      record.texts["influence function"] = scene.kernel.type;
       double trapping = 1;
       if constexpr (dim == 2)
         if (scene.fracture.criterion == problem::Criterion::calibrated)
@@ -566,10 +606,11 @@ namespace plumbline::study
       method::BreakableBody<dim> model = make_body(scene, method, influence, trapping, solver);
       model.toughness = toughness_of_nodes(scene, model.nodes, level.horizon);
       describe(scene, model, solver, record);
-      record.set("s0", critical_stretch(scene, model, level.horizon, trapping));
+      record.set("s0", critical_stretch(scene, model, influence, trapping));
       describe_field(scene.random, record);
-      record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
-                                                                        scene.geometry.backend));
+      record.set("G_h / G", model.cells ? model.cut_energy
+                                        : method.fracture_solver()->lattice_toughness(
+                                              influence, level.h, scene.geometry.backend));
       record.notes = find_notes(scene, model, level.horizon);
       const base::CpuTimer timer;
       analysis::Growth growth =
@@ -594,6 +635,7 @@ namespace plumbline::study
       const problem::Level &level = place.level();
       const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
+      record.texts["influence function"] = scene.kernel.type;
       double trapping = 1;
       if (scene.fracture.criterion == problem::Criterion::calibrated)
       {
@@ -604,7 +646,7 @@ namespace plumbline::study
       body.parts.toughness = toughness_of_nodes(scene, body.parts.nodes, level.horizon);
       record.texts["model"] = model_words(scene, !body.parts.has_dilatation);
       record.texts["criterion"] = base::word(scene.fracture.criterion);
-      record.set("s0", critical_stretch(scene, body.parts, level.horizon, trapping));
+      record.set("s0", critical_stretch(scene, body.parts, influence, trapping));
       describe_field(scene.random, record);
       record.set("G_h / G", method.fracture_solver()->lattice_toughness(influence, level.h,
                                                                         scene.geometry.backend));

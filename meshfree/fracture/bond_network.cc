@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "geometry/of_dimension.h"
+#include "meshfree/rules/families.h"
 #include "meshfree/scattered/damage.h"
 #include "physics/crossing_energy.h"
 
@@ -10,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 namespace plumbline::meshfree
@@ -115,6 +118,37 @@ namespace plumbline::meshfree
       return -1;
     }
 
+    /// @param grip    -1: it is free
+    /// @param volume  of its cell
+    template <int dim>
+    void add_node(const BreakingSolid<dim> &solid, const Point<dim> &x, int grip, double volume,
+                  BondNetwork<dim> &network)
+    {
+      network.nodes.push_back(x);
+      network.grip.push_back(grip);
+      const bool is_free = grip < 0;
+      network.constrained.push_back(is_free ? Tensor<1, dim>() : solid.constrained(x));
+      if (solid.load)
+        network.loads.push_back(is_free ? volume * solid.load(x) : Tensor<1, dim>());
+    }
+
+    /// @throws InputError  a grip without a node, or no node that is free
+    template <int dim>
+    void check_grips(const BreakingSolid<dim> &solid, const BondNetwork<dim> &network)
+    {
+      for (std::size_t g = 0; g < solid.grips.size(); ++g)
+        if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
+            network.grip.end())
+          throw InputError("Domain/fixed: grip " + std::to_string(g) +
+                           (network.cells
+                                ? " holds no node: none lies in its box"
+                                : " holds no node: it shares no " +
+                                      std::string(dim == 2 ? "area" : "volume") + " with a cell") +
+                           "; give a box in the body (Domain/boxes)");
+      if (std::find(network.grip.begin(), network.grip.end(), -1) == network.grip.end())
+        throw InputError("Domain/fixed holds all nodes; leave some of them free");
+    }
+
     /// Nodes, by cells of the lattice: shape (n[2], n[1], n[0]), -1 where there is none.
     template <int dim>
     std::vector<int> place_nodes(const BreakingSolid<dim> &solid,
@@ -122,30 +156,18 @@ namespace plumbline::meshfree
     {
       const Cell n = n_cells(lattice);
       std::vector<int> number(static_cast<std::size_t>(n[0]) * n[1] * n[2], -1);
-      geometry::for_each_index(
-          {0, 0, 0}, n,
-          [&](const Cell &cell)
-          {
-            if (!is_inside(lattice, cell))
-              return;
-            const Point<dim> x = centre(lattice, cell);
-            number[geometry::number_within(cell, n)] = static_cast<int>(network.nodes.size());
-            network.nodes.push_back(x);
-            network.grip.push_back(grip_of(solid.grips, x, network.h));
-            const bool is_free = network.grip.back() < 0;
-            network.constrained.push_back(is_free ? Tensor<1, dim>() : solid.constrained(x));
-            if (solid.load)
-              network.loads.push_back(is_free ? cell_volume<dim>(network.h) * solid.load(x)
-                                              : Tensor<1, dim>());
-          });
-      for (std::size_t g = 0; g < solid.grips.size(); ++g)
-        if (std::find(network.grip.begin(), network.grip.end(), static_cast<int>(g)) ==
-            network.grip.end())
-          throw InputError("Domain/fixed: grip " + std::to_string(g) +
-                           " holds no node: it shares no " + (dim == 2 ? "area" : "volume") +
-                           " with a cell; give a box in the body (Domain/boxes)");
-      if (std::find(network.grip.begin(), network.grip.end(), -1) == network.grip.end())
-        throw InputError("Domain/fixed holds all nodes; leave some of them free");
+      geometry::for_each_index({0, 0, 0}, n,
+                               [&](const Cell &cell)
+                               {
+                                 if (!is_inside(lattice, cell))
+                                   return;
+                                 const Point<dim> x = centre(lattice, cell);
+                                 number[geometry::number_within(cell, n)] =
+                                     static_cast<int>(network.nodes.size());
+                                 add_node(solid, x, grip_of(solid.grips, x, network.h),
+                                          cell_volume<dim>(network.h), network);
+                               });
+      check_grips(solid, network);
       return number;
     }
 
@@ -289,7 +311,9 @@ namespace plumbline::meshfree
     };
 
     /// τ; empty if λ = μ to rounding everywhere.
-    std::vector<double> dilatations(const std::vector<physics::Lame> &lame, double V)
+    /// @param factor  of a node: τ over λ - μ
+    template <class Factor>
+    std::vector<double> dilatations(const std::vector<physics::Lame> &lame, const Factor &factor)
     {
       constexpr double rounding = 1e-12;
       const auto is_bonds = [](const physics::Lame &one)
@@ -297,8 +321,8 @@ namespace plumbline::meshfree
       if (std::all_of(lame.begin(), lame.end(), is_bonds))
         return {};
       std::vector<double> result;
-      for (const physics::Lame &one : lame)
-        result.push_back(V * (one.lambda - one.mu));
+      for (std::size_t i = 0; i < lame.size(); ++i)
+        result.push_back(factor(i) * (lame[i].lambda - lame[i].mu));
       return result;
     }
 
@@ -328,8 +352,193 @@ namespace plumbline::meshfree
           box_of(solid.unbreaking, network.nodes[b], network.h) >= 0)
         return endless;
       const physics::Lame lame = materials.mean(a, b);
-      return std::sqrt(toughness / solid.trapping /
-                       physics::crossing_energy<dim>(influence.horizon(), lame));
+      return std::sqrt(toughness / solid.trapping / physics::crossing_energy(influence, lame));
+    }
+
+    /// Puts bonds into a network, each whole or cut by the notch.
+    template <int dim>
+    class BondMaker
+    {
+    public:
+      using NetworkBond = typename BondNetwork<dim>::Bond;
+
+      /// @param network  with its nodes
+      BondMaker(const BreakingSolid<dim> &solid, const Kernel<dim> &influence,
+                BondNetwork<dim> &network)
+          : solid_(solid), influence_(influence), network_(network),
+            materials_(solid, network.nodes), toughness_of_(solid, network),
+            notch_(solid.notch, network)
+      {
+        network.surfaces = surfaces_of(solid, materials_);
+      }
+
+      /// @param strength  V w K
+      NetworkBond bond(unsigned int a, unsigned int b, const Tensor<1, dim> &xi,
+                       const Tensor<1, dim> &way, double strength, double share) const
+      {
+        return {a,     b,      xi, way, strength * (2 * (dim + 2)) * materials_.mean(a, b).mu,
+                share, endless};
+      }
+
+      void add(NetworkBond bond)
+      {
+        if (notch_.has(bond.from, bond.xi, bond.to))
+        {
+          network_.cut.push_back({bond.from, bond.to});
+          lack(bond);
+          lack(bond.reversed());
+          return;
+        }
+        const double toughness = toughness_of_(network_, bond.from, bond.xi, bond.to);
+        bond.critical = critical_stretch(solid_, network_, materials_, toughness, influence_,
+                                         bond.from, bond.to);
+        network_.bonds.push_back(bond);
+        network_.toughness.push_back(toughness);
+      }
+
+      /// There is no such bond, because there is no node, or a notch is between.
+      void lack(const NetworkBond &bond)
+      {
+        if (network_.surfaces)
+          network_.surfaces->gaps.push_back(bond);
+      }
+
+      const std::vector<physics::Lame> &lame() const { return materials_.lame; }
+
+      /// @throws InputError  an interface or a notch that no bond crosses
+      void check() const
+      {
+        toughness_of_.check();
+        if (!solid_.notch.empty() && network_.cut.empty())
+          throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "
+                           "(Domain/boxes); give a line in it, from its mouth to its tip");
+      }
+
+    private:
+      const BreakingSolid<dim> &solid_;
+      const Kernel<dim> &influence_;
+      BondNetwork<dim> &network_;
+      Materials<dim> materials_;
+      BondToughness<dim> toughness_of_;
+      Crossing notch_;
+    };
+  } // namespace
+
+  namespace
+  {
+    /// Of a solid on a lattice.
+    template <int dim>
+    BondNetwork<dim> lattice_network(const BreakingSolid<dim> &solid,
+                                     const NeighbourhoodQuadrature<dim> &rule,
+                                     const Kernel<dim> &influence, double h, Backend backend)
+    {
+      BondNetwork<dim> network;
+      network.h = h;
+      network.horizon = influence.horizon();
+      const geometry::LatticeOf<dim> lattice(solid.domain, h);
+      const std::vector<int> number = place_nodes(solid, lattice, network);
+      BondMaker<dim> maker(solid, influence, network);
+      const double V = cell_volume<dim>(h);
+      network.dilatation = dilatations(maker.lame(), [V](std::size_t) { return V; });
+      const std::vector<Half<dim>> family = half_family(rule, influence, h, backend);
+      const Cell n = n_cells(lattice);
+      const auto node_at = [&](const Cell &cell, const Cell &k, int sign)
+      {
+        const Cell at = {cell[0] + sign * k[0], cell[1] + sign * k[1], cell[2] + sign * k[2]};
+        return geometry::is_within(at, n) ? number[geometry::number_within(at, n)] : -1;
+      };
+      const auto add_bonds = [&](const Cell &cell)
+      {
+        const int from = number[geometry::number_within(cell, n)];
+        if (from < 0)
+          return;
+        for (const Half<dim> &half : family)
+        {
+          const int to = node_at(cell, half.k, 1), behind = node_at(cell, half.k, -1);
+          const auto a = static_cast<unsigned int>(from);
+          const auto bond_to = [&](unsigned int b)
+          { return maker.bond(a, b, half.xi, half.way, V * half.weight, half.weight); };
+          if (behind < 0)
+            maker.lack(bond_to(a).reversed());
+          if (to < 0)
+            maker.lack(bond_to(a));
+          else
+            maker.add(bond_to(static_cast<unsigned int>(to)));
+        }
+      };
+      geometry::for_each_index({0, 0, 0}, n, add_bonds);
+      maker.check();
+      return network;
+    }
+
+    /// ½ (V_i w_ij + V_j w_ji) K of all pairs of scattered nodes, i < j, in their order.
+    std::map<std::array<unsigned int, 2>, double> strengths(const Families<2> &families,
+                                                            const Kernel<2> &influence)
+    {
+      std::map<std::array<unsigned int, 2>, double> all;
+      Family<2> family;
+      for (std::size_t i = 0; i < families.cells().size(); ++i)
+      {
+        families.make(i, family);
+        const auto from = static_cast<unsigned int>(i);
+        for (std::size_t k = 0; k < family.bonds.size(); ++k)
+          all[{std::min(from, family.neighbours[k]), std::max(from, family.neighbours[k])}] +=
+              .5 * families.cells().area[i] * family.bonds[k].weight *
+              radial_value(influence, family.bonds[k]);
+      }
+      return all;
+    }
+
+    /// See BondNetwork.
+    double cut_energy(const BondNetwork<2> &network, const Kernel<2> &influence)
+    {
+      // a bond of stretch 1 has the energy 4 share r² where μ = 1, at both its ends half of it; the
+      // mean of |ξ·n| over directions n is 2 r/π
+      const double first = physics::crossing_energy(influence, {1, 1});
+      std::vector<double> of_nodes(network.nodes.size());
+      for (const typename BondNetwork<2>::Bond &bond : network.bonds)
+        for (const unsigned int node : {bond.from, bond.to})
+          of_nodes[node] += 2 * bond.share * std::pow(bond.xi.norm(), 3) * 2 / M_PI / first /
+                            network.cells->area[node];
+      const auto middle = of_nodes.begin() + static_cast<std::ptrdiff_t>(of_nodes.size() / 2);
+      std::nth_element(of_nodes.begin(), middle, of_nodes.end());
+      return *middle;
+    }
+
+    /// Of a solid on scattered nodes.
+    BondNetwork<2> scattered_network(const BreakingSolid<2> &solid,
+                                     const NeighbourhoodQuadrature<2> &rule,
+                                     const Kernel<2> &influence, Backend backend)
+    {
+      const geometry::NodeCells<2> &cells = *solid.cells;
+      if (solid.surface_terms != problem::SurfaceTerms::uncorrected)
+        throw InputError("Fracture/surface terms = " + base::word(solid.surface_terms) +
+                         " is not available on scattered nodes; write uncorrected");
+      if (rule.adjust)
+        throw InputError("this rule adjusts the weights of whole balls, and families end at free "
+                         "surfaces; write Methods/names = FA or PA-AC, or Domain/mesh = lattice");
+      BondNetwork<2> network;
+      network.horizon = influence.horizon();
+      network.cells = solid.cells;
+      network.h = std::sqrt(std::accumulate(cells.area.begin(), cells.area.end(), 0.) /
+                            static_cast<double>(cells.size()));
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        add_node(solid, cells.nodes[i], box_of(solid.grips, cells.nodes[i], network.h),
+                 cells.area[i], network);
+      check_grips(solid, network);
+      BondMaker<2> maker(solid, influence, network);
+      network.dilatation =
+          dilatations(maker.lame(), [&](std::size_t i) { return 1 / cells.area[i]; });
+      const Families<2> families(rule, physics::deviatoric_kernel(influence, 1), cells, backend);
+      for (const auto &[ends, strength] : strengths(families, influence))
+        if (strength != 0)
+        {
+          const Tensor<1, 2> xi = cells.nodes[ends[1]] - cells.nodes[ends[0]];
+          maker.add(maker.bond(ends[0], ends[1], xi, xi / xi.norm(), strength, strength));
+        }
+      maker.check();
+      network.cut_energy = cut_energy(network, influence);
+      return network;
     }
   } // namespace
 
@@ -338,76 +547,10 @@ namespace plumbline::meshfree
                                      const NeighbourhoodQuadrature<dim> &rule,
                                      const Kernel<dim> &influence, double h, Backend backend)
   {
-    using NetworkBond = typename BondNetwork<dim>::Bond;
-    BondNetwork<dim> network;
-    network.h = h;
-    network.horizon = influence.horizon();
-    const geometry::LatticeOf<dim> lattice(solid.domain, h);
-    const std::vector<int> number = place_nodes(solid, lattice, network);
-    const Materials<dim> materials(solid, network.nodes);
-    const double V = cell_volume<dim>(h);
-    network.dilatation = dilatations(materials.lame, V);
-    BondToughness<dim> toughness_of(solid, network);
-    Crossing notch(solid.notch, network);
-    const std::vector<Half<dim>> family = half_family(rule, influence, h, backend);
-    const Cell n = n_cells(lattice);
-    const auto node_at = [&](const Cell &cell, const Cell &k, int sign)
-    {
-      const Cell at = {cell[0] + sign * k[0], cell[1] + sign * k[1], cell[2] + sign * k[2]};
-      return geometry::is_within(at, n) ? number[geometry::number_within(at, n)] : -1;
-    };
-    const auto bond_of = [&](const Half<dim> &half, unsigned int a, unsigned int b)
-    {
-      return NetworkBond{a,
-                         b,
-                         half.xi,
-                         half.way,
-                         V * (2 * (dim + 2)) * materials.mean(a, b).mu * half.weight,
-                         half.weight,
-                         endless};
-    };
-    network.surfaces = surfaces_of(solid, materials);
-    const auto lack = [&](const NetworkBond &bond)
-    {
-      if (network.surfaces)
-        network.surfaces->gaps.push_back(bond);
-    };
-    const auto add_bonds = [&](const Cell &cell)
-    {
-      const int from = number[geometry::number_within(cell, n)];
-      if (from < 0)
-        return;
-      for (const Half<dim> &half : family)
-      {
-        const int to = node_at(cell, half.k, 1), behind = node_at(cell, half.k, -1);
-        const auto a = static_cast<unsigned int>(from), b = static_cast<unsigned int>(to);
-        if (behind < 0)
-          lack(bond_of(half, a, a).reversed());
-        if (to < 0)
-        {
-          lack(bond_of(half, a, a));
-          continue;
-        }
-        NetworkBond bond = bond_of(half, a, b);
-        if (notch.has(a, half.xi, b))
-        {
-          network.cut.push_back({a, b});
-          lack(bond);
-          lack(bond.reversed());
-          continue;
-        }
-        const double toughness = toughness_of(network, a, half.xi, b);
-        bond.critical = critical_stretch(solid, network, materials, toughness, influence, a, b);
-        network.bonds.push_back(bond);
-        network.toughness.push_back(toughness);
-      }
-    };
-    geometry::for_each_index({0, 0, 0}, n, add_bonds);
-    toughness_of.check();
-    if (!solid.notch.empty() && network.cut.empty())
-      throw InputError("Domain/cracks cuts no bond: the notch lies outside of the body "
-                       "(Domain/boxes); give a line in it, from its mouth to its tip");
-    return network;
+    if constexpr (dim == 2)
+      if (solid.cells)
+        return scattered_network(solid, rule, influence, backend);
+    return lattice_network(solid, rule, influence, h, backend);
   }
 
   template <int dim>
@@ -445,8 +588,7 @@ namespace plumbline::meshfree
     Assert(steps > 0, dealii::ExcMessage("a normal without a direction"));
     // λ = μ = 1; of each kind of bond |k·normal| go through the line or plane in h or h² times
     // |normal|
-    const double V = cell_volume<dim>(h),
-                 first = physics::crossing_energy<dim>(influence.horizon(), {1, 1});
+    const double V = cell_volume<dim>(h), first = physics::crossing_energy(influence, {1, 1});
     double sum = 0;
     for (const Half<dim> &half : half_family(rule, influence, h, backend))
     {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,13 +19,14 @@ namespace plumbline::meshfree
   /// A solid on the nodes of a lattice, cell centres, as bonds: its energy is
   ///   E = Σ_bonds k/2 (way·Δu)² + Σ_nodes τ/2 θ²,  θ = Σ_bonds share ξ·Δu,  Δu = u_to - u_from,
   /// with k = V w 2 (dim + 2) μK, share = w K, τ = V (λ - μ), K the influence function of ∫K|ξ|² =
-  /// dim. That is
-  /// the linear peridynamic solid whose bonds end at free surfaces and cracks, without the
-  /// correction M of its dilatation and without the terms that free surfaces of traction add,
-  /// which make it unsymmetric, see SurfaceForces. λ = μ, ν = 1/4 in plane strain or space, leaves
-  /// the bonds alone. Where constants vary, k has the harmonic mean of both ends' μ and τ the
-  /// node's own λ - μ, so that there is an energy still; with harmonic means of both, as statics
-  /// has, there is none. Both have the same local limit.
+  /// dim. On scattered nodes V w is the mean of V_i w_ij and V_j w_ji, way = ξ/|ξ|, share = V w K
+  /// and τ = (λ - μ)/V_i, so that V_i times the dilatation is what is squared. That is the linear
+  /// peridynamic solid whose bonds end at free surfaces and cracks, without the correction M of its
+  /// dilatation and without the terms that free surfaces of traction add, which make it
+  /// unsymmetric, see SurfaceForces. λ = μ, ν = 1/4 in plane strain or space, leaves the bonds
+  /// alone. Where constants vary, k has the harmonic mean of both ends' μ and τ the node's own λ -
+  /// μ, so that there is an energy still; with harmonic means of both, as statics has, there is
+  /// none. Both have the same local limit.
   template <int dim>
   struct BondNetwork
   {
@@ -34,14 +36,19 @@ namespace plumbline::meshfree
       Tensor<1, dim> xi;    ///< from node to node [length]
       Tensor<1, dim> way;   ///< along which it pulls, of length 1
       double stiffness = 0; ///< k [force/length^2 in the plane, force/length in space]
-      double share = 0;     ///< of dilatations [1/length^2]
+      double share = 0;     ///< of dilatations [1/length^2], on scattered nodes [1]
       double critical = 0;  ///< the stretch at which it breaks; infinite: never
 
       Bond reversed() const { return {to, from, -xi, -way, stiffness, share, critical}; }
     };
 
-    double h = 0, horizon = 0; ///< [length]
+    double h = 0, horizon = 0; ///< of the lattice, or √(V) in the mean of scattered nodes [length]
     std::vector<Point<dim>> nodes;
+    std::shared_ptr<const geometry::NodeCells<dim>> cells; ///< of scattered nodes; null: a lattice
+    /// Of scattered nodes, as lattice_toughness: the mean over all directions of a cut, of the
+    /// bonds of a node over the area of its cell, and of all nodes the median: beside surfaces
+    /// nodes lack bonds.
+    double cut_energy = 0;
     std::vector<int> grip;                   ///< of each node, -1: free
     std::vector<Tensor<1, dim>> constrained; ///< u of each node at load 1, 0 where it is free
     /// Dead load at load 1, shape (n_nodes), 0 at grips; empty: none [force].
@@ -78,20 +85,15 @@ namespace plumbline::meshfree
     std::vector<double> damage(const std::vector<std::size_t> &broken) const;
   };
 
-  /// Critical stretches by G: the energy of all bonds across a straight cut of a continuum, each at
-  /// s0, is G where dilatations are dim times the stretch, which is exact for bonds (λ = μ):
-  ///   s0² = G / (4β (λ + μ)), β = ∫K r⁴ dr, in the plane,
-  ///   s0² = G / (πβ (3λ + 2μ)), β = ∫K r⁵ dr, that is 5G / (9kδ) of the bulk modulus k, in space.
-  /// On the lattice itself it is .9158 G for m = 3 in the plane, see lattice_toughness. Bonds
+  /// Critical stretches by G, see physics::crossing_energy. On the lattice itself the bonds across
+  /// a straight cut hold less: .9158 G for 1/r and m = 3 in the plane, see lattice_toughness. Bonds
   /// between two materials have harmonic means of λ and μ, and G as BreakingSolid says.
   /// Instantiated for dim = 2 and 3.
   /// @param rule       with the deviatoric kernel of μ = 1
-  /// @param influence  1/r, ∫K|ξ|² = dim
+  /// @param influence  ∫K|ξ|² = dim
   /// @throws InputError  h that does not fit the boxes; grips that hold no node, or one grip alone;
   /// G <= 0 at a bond; a notch or an interface through a node, or that crosses no bond; surface
-  /// terms in space
-  /// Source: Fan et al. 2022, eqs. (2.24)-(2.26); Silling & Askari 2005 for λ = μ, in space c =
-  /// 18k/(πδ⁴) and s0² = 10G/(πcδ⁵), doi:10.1016/j.compstruc.2004.11.026.
+  /// terms in space or on scattered nodes; there, a rule that adjusts weights
   template <int dim>
   BondNetwork<dim> make_bond_network(const BreakingSolid<dim> &solid,
                                      const NeighbourhoodQuadrature<dim> &rule,

@@ -288,6 +288,8 @@ namespace plumbline::meshfree
     method::BreakableBody<dim> model;
     model.h = network->h;
     model.nodes = network->nodes;
+    model.cells = network->cells;
+    model.cut_energy = network->cut_energy;
     for (const typename BondNetwork<dim>::Bond &bond : network->bonds)
       model.bonds.push_back({bond.from, bond.to});
     model.toughness_of_bonds = network->toughness;

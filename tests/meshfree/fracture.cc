@@ -386,6 +386,39 @@ TEST(Fracture, toughness_of_lattices_tends_to_that_of_the_law)
   }
 }
 
+TEST(Fracture, toughness_of_lattices_tends_to_that_of_the_law_for_all_influence_functions)
+{
+  for (const char *const type : {"constant", "conical"})
+  {
+    const auto toughness = [&](int m)
+    {
+      const auto K = physics::influence_function<2>(physics::kernel_type(type).profile, m * h);
+      return lattice_toughness(meshfree::partial_area(physics::deviatoric_kernel(K, 1)), K, h,
+                               geometry::Backend::fast);
+    };
+    EXPECT_NEAR(toughness(4), 1, .06) << type;
+    EXPECT_NEAR(toughness(16), 1, .006) << type;
+  }
+}
+
+TEST(Fracture, events_are_those_of_brute_force_with_a_conical_influence_function)
+{
+  const BreakingSolid<2> solid = plate(30, 16, 12 * h, .35);
+  const auto K = physics::influence_function<2>(physics::kernel_type("conical").profile, 3 * h);
+  const BondNetwork<2> net = make_bond_network(
+      solid, meshfree::full_area(physics::deviatoric_kernel(K, 1)), K, h, geometry::Backend::fast);
+  BreakingNetwork<2> body(net, problem::Stretch::linear);
+  const Growth growth = grow(body, rules());
+  const std::vector<Event> expected = by_brute_force(net, 20);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    ASSERT_EQ(growth.events[i].bonds, expected[i].bonds) << i;
+    EXPECT_NEAR(growth.events[i].critical / expected[i].critical, 1, 1e-9) << i;
+  }
+  for (const Event &event : growth.events)
+    EXPECT_LT(event.imbalance(), 1e-10);
+}
+
 TEST(Fracture, toughness_of_a_lattice_depends_on_the_direction_of_a_cut)
 {
   const auto K = influence(3 * h);
