@@ -17,7 +17,8 @@ namespace plumbline::method
   struct BreakableBody
   {
     std::shared_ptr<QuasistaticFractureModel> body;
-    double h = 0; ///< of the lattice, or the mean of scattered nodes [length]
+    double horizon = 0; ///< [length]
+    double h = 0;       ///< of the lattice, or the mean of scattered nodes [length]
     std::vector<dealii::Point<dim>> nodes;
     std::shared_ptr<const geometry::NodeCells<dim>> cells; ///< of scattered nodes; null: a lattice
     /// Of scattered nodes: the energy of all bonds across a straight cut at their critical stretch,

@@ -231,19 +231,6 @@ namespace plumbline::report
                           " have their own G (Fracture/interfaces).";
     }
 
-    /// By G, with its source.
-    std::string critical_stretch(const Record &record)
-    {
-      const bool is_in_space = study::is_in_space(record);
-      const std::string &influence = record.text("influence function");
-      if (influence == "1/r" || influence == "bond-tensor")
-        return is_in_space ? "s0² = 5G/(9kδ) with the bulk modulus k (Silling & Askari 2005)"
-                           : "s0² = πG/(3δ(λ + μ)) (Fan et al. 2022, eq. (2.25))";
-      return std::string(is_in_space ? "s0² = G/(πβ(3λ + 2μ)) with β = ∫K r⁵ dr"
-                                     : "s0² = G/(4β(λ + μ)) with β = ∫K r⁴ dr") +
-             " of the influence function K, " + influence;
-    }
-
     /// With what makes it again.
     std::string model(const Record &record)
     {
@@ -251,7 +238,7 @@ namespace plumbline::report
       const bool is_in_space = study::is_in_space(record);
       const bool is_scattered = study::is_scattered(record);
       return "Model: " + record.text("model") + ". A bond breaks at the critical stretch s0, " +
-             critical_stretch(record) + ", at which all bonds across a " +
+             record.text("critical stretch") + ", at which all bonds across a " +
              (is_in_space ? "plane" : "straight") +
              " cut of the continuum store the energy G; exact where λ = μ. " +
              (is_scattered ? "Between these nodes" : "On this lattice") + " they store " +

@@ -141,8 +141,8 @@ namespace plumbline::scene
                     .n_components() == scene.n_components(),
             "Problem/load of " + std::to_string(scene.n_components()) + " components");
     needs(scene.methods.names.size() == 1 &&
-              (!domain.mesh.is_lattice() || scene.methods.nodes.are_lattice_centres()),
-          "one meshfree method (Methods/names) on centres that are not moved (Methods/nodes)");
+              (!domain.mesh.is_lattice() || scene.methods.nodes.kind() == NodeKind::centres),
+          "one meshfree method (Methods/names) on centres (Methods/nodes)");
     needs(
         !domain.cracks.empty() || (!is_moving && !domain.is_in_space()),
         "an initial notch in Domain/cracks, from its mouth to its tip (only quasi-static fracture "

@@ -108,14 +108,15 @@ namespace plumbline::study
       }
 
       /// At an end, or where a crack steps from one row to the next without parting neighbours; of
-      /// scattered nodes, within a mesh size.
+      /// scattered nodes, within a horizon.
       bool touches(const Ends &ends) const
       {
         if (model_->cells)
-          return std::any_of(
-              points_.begin(), points_.end(),
-              [&](const Point<2> &point)
-              { return std::min(point.distance(ends[0]), point.distance(ends[1])) < model_->h; });
+          return std::any_of(points_.begin(), points_.end(),
+                             [&](const Point<2> &point) {
+                               return std::min(point.distance(ends[0]), point.distance(ends[1])) <
+                                      model_->horizon;
+                             });
         constexpr long step = 2; // one mesh size
         const unsigned int along = axis(ends);
         for (const Point<2> &end : ends)

@@ -8,6 +8,7 @@
 #include "method/fracture_solver.h"
 #include "physics/crossing_energy.h"
 #include "physics/expression.h"
+#include "scene/checks.h"
 #include "scene/mesh.h"
 #include "scene/models/model.h"
 #include "scene/origin.h"
@@ -454,6 +455,18 @@ namespace plumbline::study
       record.set("bonds", static_cast<double>(model.body->n_bonds()));
     }
 
+    /// The formula of the critical stretch, with its source.
+    std::string stretch_words(const scene::Scene &scene)
+    {
+      const bool is_in_space = scene.domain.is_in_space();
+      if (scene::is_inverse_distance(scene.kernel))
+        return is_in_space ? "s0² = 5G/(9kδ) with the bulk modulus k (Silling & Askari 2005)"
+                           : "s0² = πG/(3δ(λ + μ)) (Fan et al. 2022, eq. (2.25))";
+      return std::string(is_in_space ? "s0² = G/(πβ(3λ + 2μ)) with β = ∫K r⁵ dr"
+                                     : "s0² = G/(4β(λ + μ)) with β = ∫K r⁴ dr") +
+             " of the influence function K (Kernel/type = " + scene.kernel.type + ")";
+    }
+
     /// At which a bond breaks whose ends are both like one node, the smallest of all nodes.
     template <int dim>
     double critical_stretch(const scene::Scene &scene, const method::BreakableBody<dim> &model,
@@ -595,7 +608,7 @@ namespace plumbline::study
       const problem::GrowthSolver solver = expected_size(scene).solver;
       const auto influence = physics::influence_function<dim>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
-      record.texts["influence function"] = scene.kernel.type;
+      record.texts["critical stretch"] = stretch_words(scene);
       double trapping = 1;
       if constexpr (dim == 2)
         if (scene.fracture.criterion == problem::Criterion::calibrated)
@@ -635,7 +648,7 @@ namespace plumbline::study
       const problem::Level &level = place.level();
       const auto influence = physics::influence_function<2>(scene.kernel.profile, level.horizon);
       Record record = place.record("grow", method);
-      record.texts["influence function"] = scene.kernel.type;
+      record.texts["critical stretch"] = stretch_words(scene);
       double trapping = 1;
       if (scene.fracture.criterion == problem::Criterion::calibrated)
       {

@@ -286,6 +286,7 @@ namespace plumbline::meshfree
                                              const dealii::Point<2> &notch_tip)
   {
     method::BreakableBody<dim> model;
+    model.horizon = network->horizon;
     model.h = network->h;
     model.nodes = network->nodes;
     model.cells = network->cells;

@@ -409,6 +409,65 @@ TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
   expect_refused("run " + plate_in_space(), "only 'plumbline grow' uses Fracture/toughness");
 }
 
+namespace
+{
+  /// The plate on a coarse lattice, until its crack has begun.
+  std::string coarse_plate()
+  {
+    return "grow " + plate() +
+           " --quiet --set Study/h=0.05 --set 'Fracture/min reaction=0.8' --set "
+           "'Domain/fixed=0, 0.35 : 2, 0.5; 0, -0.5 : 2, -0.35' --set Expected/growth= ";
+  }
+
+  Json record_of(const std::string &command)
+  {
+    const fs::path folder = temporary("grow");
+    const Outcome outcome = run(command + " -o " + folder.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json result = record(folder);
+    fs::remove_all(folder);
+    return result;
+  }
+} // namespace
+
+TEST(GrowCommand, takes_bond_tensors_as_solids_whose_constants_are_alike)
+{
+  const Json lps = record_of(coarse_plate() + "--set Kernel/type=conical"),
+             tensors = record_of(coarse_plate() +
+                                 "--set Material/model=bond-based --set Material/nu= --set "
+                                 "'Kernel/type=bond-tensor conical'");
+  for (const char *const name : {"s0", "G_h / G", "first break", "first advance", "peak load",
+                                 "peak reaction", "K by energy"})
+    EXPECT_NEAR(scalar(tensors, name), scalar(lps, name), 1e-9 * scalar(lps, name)) << name;
+  // E = 1, nu = 1/4: lambda + mu = .8; β = 2δ/(3π)
+  const double delta = lps["key"]["horizon"];
+  EXPECT_NEAR(scalar(lps, "s0"), std::sqrt(3 * M_PI / (8 * delta * .8)), 1e-12);
+}
+
+TEST(GrowCommand, lets_cracks_grow_on_meshes)
+{
+  const std::string with_FA = coarse_plate() + "--methods FA ";
+  const Json lattice = record_of(with_FA),
+             squares = record_of(with_FA + "--set Domain/mesh=squares --set Methods/nodes=mesh"),
+             moved = record_of(with_FA + "--set Domain/mesh=squares --set "
+                                         "Methods/perturbation=0.2");
+  for (const char *const name :
+       {"s0", "first advance", "peak load", "peak reaction", "advance", "broken bonds", "width"})
+    EXPECT_NEAR(scalar(squares, name), scalar(lattice, name), 1e-6 * scalar(lattice, name)) << name;
+  EXPECT_LT(scalar(moved, "imbalance"), 1e-10);
+  EXPECT_EQ(scalar(moved, "s0"), scalar(lattice, "s0"));
+  EXPECT_NEAR(scalar(moved, "peak load") / scalar(lattice, "peak load"), 1, .15);
+  EXPECT_FALSE(moved["scalars"].contains("unpaired")); // no node has a mirror image
+  const auto refused = [&](const std::string &settings, const std::string &words)
+  { expect_refused(coarse_plate() + "--set Domain/mesh=squares " + settings, words); };
+  refused("", "adjusts the weights of whole balls");
+  refused("--methods FA --set Methods/nodes=vertices", "Methods/nodes = mesh");
+  refused("--methods FA --set Fracture/criterion=calibrated", "Fracture/criterion = toughness");
+  refused("--methods FA --set 'Fracture/surface terms=none'",
+          "Fracture/surface terms = uncorrected");
+  refused("--methods FA --set 'Domain/fixed=0, 5 : 1, 6'", "none lies in its box");
+}
+
 TEST(GrowCommand, refuses_what_cannot_grow)
 {
   const std::string body = "grow " + plate() + " --quiet ";
@@ -437,7 +496,10 @@ TEST(GrowCommand, refuses_what_cannot_grow)
                  "because Problem/load is given");
   expect_refused(set("Material/nu=0.6"), "nu");
   expect_refused(set("Material/model=variational"), "take LPS");
-  expect_refused(set("Kernel/type=constant"), "Kernel/type = 1/r");
+  expect_refused(set("Kernel/type=polynomial") + " --set 'Kernel/coefficients=1, -2'",
+                 "Kernel/type = polynomial is negative at r = 0.501 horizons");
+  expect_refused(set("Kernel/type=conical") + " --set 'Fracture/surface terms=published'",
+                 "write uncorrected, none or consistent");
   expect_refused(set("Study/h=0.05, 0.025"), "one Study/h");
   expect_refused(set("Study/h=0.03"), "mesh size h = 0.03 does not divide");
   expect_refused(set("Study/h=0.0005"), "Study/h = 0.0005 gives a body of 8e+06 nodes");

@@ -129,8 +129,9 @@ namespace plumbline::scene
           fixed = is_floating ? std::vector<geometry::Box>() : to_boxes(text);
         },
         "Boxes where u is prescribed in a free body, written like boxes: at nodes whose cell "
-        "overlaps a box (the grips of 'plumbline grow' too), and in mesh cells whose centroid is "
-        "in a box. none: the body is unconstrained and has rigid-body modes; 'plumbline stability' "
+        "overlaps a box (the grips of 'plumbline grow' too, on meshes at nodes in a box), and in "
+        "mesh cells whose centroid is in a box. none: the body is unconstrained and has rigid-body "
+        "modes; 'plumbline stability' "
         "analyses it, 'plumbline run' refuses it. In three dimensions ('plumbline grow') each box "
         "given in x and y extends through the whole thickness along z. [length]");
     keys.add(

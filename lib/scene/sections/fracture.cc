@@ -14,10 +14,12 @@ namespace plumbline::scene
         "Fracture toughness G > 0 (energy per unit area of crack), an expression in x and y (and z "
         "in three dimensions). Each "
         "bond has the mean of G at its two ends (Fracture/bond toughness) and breaks at the "
-        "critical stretch s0, s0^2 = pi G / (3 delta (lambda + mu)) for the influence function "
-        "1/r, in three dimensions s0^2 = 5 G / (9 k delta) with the bulk modulus k. 'plumbline "
-        "grow' runs the scene, with Time/final time as dynamic fracture. Empty: no bonds break. "
-        "[force/length]");
+        "critical stretch s0 that the kernel gives: s0^2 = G / (4 beta (lambda + mu)) with beta "
+        "the "
+        "integral of K r^4 over r from 0 to delta, K the influence function with the integral of K "
+        "|xi|^2 = 2; pi G / (3 delta (lambda + mu)) for 1/r, in three dimensions 5 G / (9 k delta) "
+        "with the bulk modulus k. 'plumbline grow' runs the scene, with Time/final time as dynamic "
+        "fracture. Empty: no bonds break. [force/length]");
     keys.add(
         "bond toughness", of_bonds,
         "mean: the mean of G at the two ends of a bond; features between nodes are not resolved. "
