@@ -78,6 +78,7 @@ namespace plumbline::report
           {"nucleus x", "where the crack begins in a body without a notch: the middle of the first "
                         "separated cell face [length]"},
           {"nucleus y", "the same [length]"},
+          {"nucleus z", "the same: the layer of nodes in which it lies [length]"},
           {"connected", "whether bonds still connect the grips at the end"},
           {"reaction left", "reaction at the end relative to its peak"},
           {"load left",
@@ -156,8 +157,10 @@ namespace plumbline::report
         return "The crack does not grow";
       if (record.has("nucleus x"))
         return "A crack begins at (" + rounded(record["nucleus x"]) + ", " +
-               rounded(record["nucleus y"]) + ") at load " + rounded(record["first advance"]) +
-               " and advances by " + rounded(record["advance"]) + " [length]";
+               rounded(record["nucleus y"]) +
+               (record.has("nucleus z") ? ", " + rounded(record["nucleus z"]) : "") + ") at load " +
+               rounded(record["first advance"]) + " and advances by " + rounded(record["advance"]) +
+               " [length]";
       return "The crack starts to grow at load " + rounded(record["first advance"]) +
              " and advances by " + rounded(record["advance"]) + " [length]";
     }

@@ -144,9 +144,9 @@ namespace plumbline::scene
               (!domain.mesh.is_lattice() || scene.methods.nodes.kind() == NodeKind::centres),
           "one meshfree method (Methods/names) on centres (Methods/nodes)");
     needs(
-        !domain.cracks.empty() || (!is_moving && !domain.is_in_space()),
+        !domain.cracks.empty() || !is_moving,
         "an initial notch in Domain/cracks, from its mouth to its tip (only quasi-static fracture "
-        "in two dimensions begins without one)");
+        "begins without one)");
     needs(scene.study.series.size() == 1 && scene.study.series.front().levels.size() == 1,
           "one Study/h and one Study/m (or Study/horizon)");
     if (is_moving)

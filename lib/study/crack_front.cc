@@ -67,6 +67,16 @@ namespace plumbline::study
     }
   } // namespace
 
+  std::optional<Point<3>> find_nucleus(const SpaceModel &model, const std::vector<Event> &events)
+  {
+    const std::vector<Layer> layers = layers_of(model);
+    for (const Event &event : events)
+      for (const Layer &layer : layers)
+        if (const auto found = find_nucleus(layer.model, in_layer(layer, {event})))
+          return Point<3>((*found)[0], (*found)[1], layer.z);
+    return {};
+  }
+
   CrackFront find_front(const SpaceModel &model, const std::vector<Event> &events)
   {
     CrackFront front;

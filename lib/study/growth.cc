@@ -512,6 +512,9 @@ namespace plumbline::study
     record.set("advance max", last[2], "length");
     set_toughness(found, found.front.area, record);
     record.set("area", found.front.area, "length^2");
+    if (found.nucleus)
+      for (unsigned int d = 0; d < 3; ++d)
+        record.set(std::string("nucleus ") + "xyz"[d], (*found.nucleus)[d], "length");
     record.set("apart", static_cast<double>(found.front.n_elsewhere));
     record.set("unpaired", static_cast<double>(found.n_unpaired_in_y));
     record.set("unpaired in z", static_cast<double>(found.n_unpaired_in_z));

@@ -144,6 +144,11 @@ namespace plumbline::study
   /// "damage", "parts" and "phases". Field "G" where it varies.
   Record growth_record(Record record, const GrowthFindings &found);
 
+  /// Where a crack begins in space without a notch: as in the plane, in the first layer z = const
+  /// of nodes, from below, in which next neighbours part. What parts across z alone is not seen.
+  std::optional<dealii::Point<3>> find_nucleus(const method::BreakableBody<3> &model,
+                                               const std::vector<analysis::Event> &events);
+
   /// Where a crack went in space. In each layer z = const of nodes it is the path of those bonds
   /// that lie in it, see CrackPath; the front is the line through the tips of all layers.
   struct CrackFront
@@ -162,6 +167,7 @@ namespace plumbline::study
   struct FrontFindings : CommonFindings<3>
   {
     CrackFront front;
+    std::optional<dealii::Point<3>> nucleus; ///< without a notch
     double h = 0;
     std::size_t n_unpaired_in_y = 0, n_unpaired_in_z = 0;
   };
@@ -171,9 +177,10 @@ namespace plumbline::study
   /// Scalars: "advance", "advance min" and "advance max" are the mean, minimum and maximum
   /// advance over the front's layers, from the notch tip [length]; "area" in place of the width
   /// [length^2]; "unpaired" about the middle of y and "unpaired in z" about the middle of the
-  /// thickness. Curves: "events" with "way", "way min" and "way max" of the front; "front" with the
-  /// advance of each layer at the moments; "sides" with z. Field "damage" is that of the layer in
-  /// the middle of the thickness, the lower one of two.
+  /// thickness; without a notch "nucleus x", "nucleus y" and "nucleus z". Curves: "events" with
+  /// "way", "way min" and "way max" of the front; "front" with the advance of each layer at the
+  /// moments; "sides" with z. Field "damage" is that of the layer in the middle of the thickness,
+  /// the lower one of two.
   Record growth_record(Record record, const FrontFindings &found);
 
   /// The forces of a record's body have no energy: its text "surface terms" says so.

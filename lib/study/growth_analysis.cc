@@ -631,11 +631,14 @@ namespace plumbline::study
       record.cost.solve_seconds = timer.seconds();
       record.texts["pulled by"] = scene.problem.loads.empty() ? "grips" : "dead loads";
       set_work(model.body->work(), record);
-      if constexpr (dim == 2)
-        if (const auto nucleus = find_nucleus(model, growth.events);
-            nucleus && scene.domain.cracks.empty())
-          model.notch_tip = *nucleus;
-      const auto found = find_out(scene, model, std::move(growth));
+      std::optional<Point<dim>> nucleus;
+      if (scene.domain.cracks.empty())
+        nucleus = find_nucleus(model, growth.events);
+      if (nucleus)
+        model.notch_tip = Point<2>((*nucleus)[0], (*nucleus)[1]);
+      auto found = find_out(scene, model, std::move(growth));
+      if constexpr (dim == 3)
+        found.nucleus = nucleus;
       write_moments(found, write);
       return growth_record(std::move(record), found);
     }

@@ -398,7 +398,6 @@ TEST(GrowCommand, refuses_in_space_what_is_of_the_plane)
                  "write uncorrected");
   expect_refused(set("Fracture/criterion=calibrated"), "write toughness");
   expect_refused(set("Domain/cracks=-0.1, 0.55 : 0.4, 0.55"), "goes through node");
-  expect_refused(set("Domain/cracks="), "needs an initial notch in Domain/cracks");
   expect_refused(set("Domain/cracks=-0.1, 0.5 : 3, 0.5"), "no path of bonds joins the grips");
   expect_refused(set("Domain/fixed=0, 5 : 1, 6"), "grip 0 holds no node");
   expect_refused(set("Domain/fixed=0, 0, 0 : 1, 1, 1"), "is not allowed");

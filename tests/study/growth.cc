@@ -432,6 +432,34 @@ TEST(CrackFront, is_the_tip_of_each_layer)
 
 // Full areas at m = 2: by rise times number, bonds within a layer have 1 + 2 + 2, those to the
 // next layers 2 + 4, which the outer layers have to one side only.
+TEST(CrackFront, begins_in_the_layer_whose_neighbours_part_first_if_there_is_no_notch)
+{
+  auto model = combs(6, 3);
+  const std::size_t along_z = model.bonds.size() - 1;
+  const auto broken = [&](double x, double y, double z)
+  {
+    for (std::size_t b = 0; b < model.bonds.size(); ++b)
+      if (const auto &from = model.nodes[model.bonds[b][0]], &to = model.nodes[model.bonds[b][1]];
+          (from + .5 * (to - from)).distance({x, y, z}) < 1e-9)
+        return b;
+    throw InputError("no such bond");
+  };
+  EXPECT_FALSE(study::find_nucleus(model, {event({along_z})}));
+  const std::vector<Event> events = {event({along_z}), event({broken(4.5, 0, 1)}),
+                                     event({broken(3.5, 1, 0)})};
+  const auto nucleus = study::find_nucleus(model, events);
+  ASSERT_TRUE(nucleus);
+  EXPECT_LT(nucleus->distance({4.5, 0, 1}), 1e-12);
+  study::FrontFindings found;
+  found.nucleus = nucleus;
+  found.growth.events = events;
+  found.front = study::find_front(model, events);
+  const analysis::Record record = growth_record({}, found);
+  EXPECT_EQ(record["nucleus x"], 4.5);
+  EXPECT_EQ(record["nucleus y"], 0);
+  EXPECT_EQ(record["nucleus z"], 1);
+}
+
 TEST(CrackFront, counts_bonds_across_a_plane_on_the_mean_over_the_thickness)
 {
   constexpr int n = 9;
