@@ -62,7 +62,7 @@ namespace plumbline::study
     {
       if (scene.material.model->is_state_based())
         return scene.material.lame();
-      constexpr double any = 1; // horizon, of which the limit does not depend
+      constexpr double any = 1; // horizon: the limit does not depend on it
       const physics::LocalLimit limit =
           scene.domain.is_in_space() ? scene.material.model->kernel_in_space(scene, any).limit()
                                      : scene.material.model->kernel(scene, any).limit();
