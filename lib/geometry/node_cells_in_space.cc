@@ -349,8 +349,8 @@ namespace plumbline::geometry
             throw InputError(
                 "nodes end at " + std::string(1, "xyz"[d]) + " = " +
                 base::to_text(is_upper ? box.upper[d] + margin : box.lower[d] - margin, 4) +
-                ", but the interaction domain extends one horizon (" + base::to_text(horizon, 4) +
-                ") beyond the domain on every side; add nodes there");
+                ", but the interaction domain extends by the reach of the kernel (" +
+                base::to_text(horizon, 4) + ") beyond the domain on every side; add nodes there");
           (is_upper ? layer.upper : layer.lower)[d] +=
               (is_upper ? 1 : -1) * (std::max(margin, 0.) + spacing / 2);
         }

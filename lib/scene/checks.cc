@@ -310,15 +310,15 @@ namespace plumbline::scene
     require(target != Target::reference || is_of_averages,
             decisive + ": solutions are compared with a reference by cell averages; use averages "
                        "L2 or averages Linf");
-    require(
-        reference.h == 0 || reference.method,
-        "Reference/h = " + short_number(reference.h) +
-            " needs Reference/method, which is none; name a Galerkin method or clear Reference/h");
+    require(reference.h == 0 || reference.method,
+            "Reference/mesh size = " + short_number(reference.h) +
+                " needs Reference/method, which is none; name a Galerkin method or clear "
+                "Reference/mesh size");
     require(
         reference.h == 0 || (scene.domain.mesh.is_of_boxes() && scene.domain.dimension == 2),
-        "Reference/h = " + short_number(reference.h) +
+        "Reference/mesh size = " + short_number(reference.h) +
             " needs a mesh of Domain/boxes in two dimensions (Domain/mesh = lattice, squares or "
-            "triangles); clear Reference/h, so that each level has its own reference");
+            "triangles); clear Reference/mesh size, so that each level has its own reference");
     require(reference.tolerance == 0 || (reference.method && reference.estimate != Estimate::none),
             "Reference/tolerance = " + short_number(reference.tolerance) +
                 " needs a reference and the estimate of its error; give Reference/method and write "

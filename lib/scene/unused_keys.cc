@@ -62,7 +62,7 @@ namespace plumbline::scene
            "a static problem, or a random field with modes (sample/modes.csv); Time/frames writes "
            "states"},
           {"Reference/tolerance", is_static, "a static problem"},
-          {"Reference/h", is_static, "a static problem"},
+          {"Reference/mesh size", is_static, "a static problem"},
           {"Problem/local solution",
            is_static || scene.problem.local_solution == LocalSolution::none ||
                scene.problem.local_solution == LocalSolution::computed ||

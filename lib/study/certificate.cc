@@ -481,7 +481,7 @@ namespace plumbline::study
       refuse("Reference/method = none; name the Galerkin method whose values are certified, "
              "e.g. Q2 on a lattice or P2 on triangles");
     if (scene.reference.h != 0)
-      refuse("Reference/h: values are certified on the mesh of each level; leave it out");
+      refuse("Reference/mesh size: values are certified on the mesh of each level; leave it out");
     if (scene.domain.is_damaged())
       refuse("Domain/cracks and outside: values at nodes are not fitted across cracks and free "
              "surfaces, so that the two ways cannot be compared at points; leave them out");

@@ -36,7 +36,7 @@ namespace plumbline::study
     constexpr auto own_finest = "own finest level"; ///< what the study keeps of it
     constexpr auto field_name = "solution";         ///< of records
 
-    /// A reference solution at Reference/h.
+    /// A reference solution at Reference/mesh size.
     struct FixedReference
     {
       CellPieces cells;
@@ -54,7 +54,8 @@ namespace plumbline::study
       const FixedReference *fixed = nullptr; ///< null: the reference has the level's mesh size
     };
     using OpenCases = std::vector<OpenCase>;
-    constexpr auto fixed_references = "references at Reference/h"; ///< what the study keeps of them
+    constexpr auto fixed_references =
+        "references at Reference/mesh size"; ///< what the study keeps of them
 
     /// All cases of a level.
     class LevelOfStatics

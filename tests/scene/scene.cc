@@ -274,10 +274,11 @@ TEST(SceneErrors, expressions_and_targets)
   expect_error(section("Study", "decisive error = nodal Linf"), "must be 'norm | target'");
   expect_error(section("Study", "decisive error = averages L2 | reference"),
                "Reference/method, which is none");
-  expect_error(section("Reference", "h = 0.01"), "Reference/h = 0.01 needs Reference/method");
+  expect_error(section("Reference", "mesh size = 0.01"),
+               "Reference/mesh size = 0.01 needs Reference/method");
   expect_error(section("Reference", "h = 0.01\n set method = Q1") +
                    section("Domain", "mesh = hyper_ball"),
-               "Reference/h = 0.01 needs a mesh of Domain/boxes");
+               "Reference/mesh size = 0.01 needs a mesh of Domain/boxes");
   expect_error(section("Methods", "names ="), "Methods/names is empty");
   expect_error(section("Expected", "verdicts = Q1 AC"), "has no ':'");
   expect_error(section("Expected", "errors = Q1, case9: 1"),

@@ -600,9 +600,8 @@ TEST(ScatteredNodesInSpace, that_cannot_be_used_are_refused)
   expect({{"Methods/nodes", "vertices"}}, {"Methods/nodes = vertices", "write centres"});
   expect({{"Methods/nodes", "cetres"}}, {"'cetres' is not known"});
   expect({{"Methods/perturbation", "0.5"}}, {"Methods/perturbation", "0.5"});
-  expect(with(lps, {{"Methods/perturbation", "0.3"}}), {"Methods/perturbation", "LPS"});
   expect({{"Methods/nodes", write_centres(folder, .2)}, {"Study/h", "1/8"}},
-         {"nodes.csv", "nodes end at x = -0.1875", "one horizon (0.375)"});
+         {"nodes.csv", "nodes end at x = -0.1875", "the reach of the kernel (0.375)"});
   expect({{"Methods/nodes", (folder.path() / "none.csv").string()}}, {"none.csv"});
   std::ofstream((folder.path() / "flat.csv").string()) << "x,y\n0,0\n";
   expect({{"Methods/nodes", (folder.path() / "flat.csv").string()}, {"Study/h", "1/8"}},

@@ -62,7 +62,7 @@ TEST(SelfConvergence, a_reference_of_one_mesh_size_is_a_finest_level)
   { return scene::parse_scene("test.prm", "", settings); };
   const Records own = in_space::run(scene(of_levels)).records,
                 fixed = in_space::run(scene(with(of_levels, {{"Reference/method", "DGQ0"},
-                                                             {"Reference/h", "0.1"},
+                                                             {"Reference/mesh size", "0.1"},
                                                              {"Reference/estimate", "none"},
                                                              {"Study/decisive error",
                                                               "averages L2 | reference"}})))

@@ -25,7 +25,7 @@ namespace plumbline::scene
         },
         "Galerkin method whose cell averages are the reference solution: none, Q1, Q2, Q3, ...; "
         "torus for transient double wells.");
-    keys.add("h", h, between(0, std::numeric_limits<double>::max()),
+    keys.add("mesh size", h, between(0, std::numeric_limits<double>::max()),
              "Mesh size of the reference for all levels, in static problems in the plane; its "
              "averages are transferred to the cells of each level by the areas that these share. "
              "0: the mesh size of each level. [length]");
