@@ -276,7 +276,7 @@ TEST(SceneErrors, expressions_and_targets)
                "Reference/method, which is none");
   expect_error(section("Reference", "mesh size = 0.01"),
                "Reference/mesh size = 0.01 needs Reference/method");
-  expect_error(section("Reference", "h = 0.01\n set method = Q1") +
+  expect_error(section("Reference", "mesh size = 0.01\n set method = Q1") +
                    section("Domain", "mesh = hyper_ball"),
                "Reference/mesh size = 0.01 needs a mesh of Domain/boxes");
   expect_error(section("Methods", "names ="), "Methods/names is empty");
